@@ -73,8 +73,7 @@ class Attachment {
         move_files();
         for (const std::string& name : options_.removed) {
             const std::size_t material = find_material(names_, name, options_.scene);
-            for (const cook::GltfExtension& extension : registry_.gltf_extensions())
-                gltf_->set_material_extension(material, extension.name, nullptr);
+            remove_all_but(material, {});
         }
         for (const auto& [name, source] : options_.attached)
             attach(find_material(names_, name, options_.scene), source);
@@ -108,6 +107,13 @@ class Attachment {
             }
     }
 
+    /// Removes what attach() sets, but not extensions that describe the material's own surface.
+    void remove_all_but(std::size_t material, const std::string& kept) {
+        for (const cook::GltfExtension& extension : registry_.gltf_extensions())
+            if (extension.from_source && extension.name != kept)
+                gltf_->set_material_extension(material, extension.name, nullptr);
+    }
+
     void attach(std::size_t material, const Path& source) {
         const std::string& type = cook::as_refusal_of(
                                       source, [&]() -> const auto& { return registry_.type_of_source(source); })
@@ -116,15 +122,19 @@ class Attachment {
         const auto extension = std::ranges::find(extensions, type, &cook::GltfExtension::source_type);
         if (extension == extensions.end() || !extension->from_source)
             refuse_input(source.string(), {}, fmt::format("a {} source", type),
-                         "one that a glTF material can hold, such as a grating", "see content/materials");
+                         "one that a glTF material can hold, such as a grating or a film", "see content/materials");
         cook::Context context(source);
         OrderedJson object = cook::as_refusal_of(source, [&] { return extension->from_source(context); });
         dependencies_.insert(dependencies_.end(), context.dependencies().begin(), context.dependencies().end());
+        if (options_.rotation_deg && extension->rotation_member.empty())
+            refuse_input("--groove-rotation-deg", {}, fmt::format("a {} source", type), "a grating",
+                         "leave the option out");
         if (options_.rotation_deg)
             object[extension->rotation_member] = *options_.rotation_deg * std::numbers::pi / 180.0;
         if (options_.texture) object[extension->texture_member] = {{"index", add_texture()}};
         extension->describe(nlohmann::json::parse(object.dump()), source.string(), "");
         if (extension->move) extension->move(object, source.parent_path(), folder_);
+        remove_all_but(material, extension->name);  // a surface is of one module
         gltf_->set_material_extension(material, extension->name, object);
     }
 
@@ -177,8 +187,9 @@ int list_materials(const cook::Registry& registry, const Path& scene) {
             const OrderedJson object = gltf.material_extension(i, extension.name);
             if (object.is_null()) continue;
             try {
-                attached = extension.describe(nlohmann::json::parse(object.dump()), scene.string(),
-                                              fmt::format("/materials/{}/extensions/{}", i, extension.name));
+                std::string text = extension.describe(nlohmann::json::parse(object.dump()), scene.string(),
+                                                      fmt::format("/materials/{}/extensions/{}", i, extension.name));
+                if (extension.from_source || attached == "none") attached = std::move(text);
             } catch (const Error& error) {
                 log_error("{}", error.what());
                 attached = "refused";

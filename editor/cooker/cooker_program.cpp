@@ -112,14 +112,14 @@ void add_schema_command(CLI::App& program, const cook::Registry& registry) {
 
 /// Adds `attach`, which sets material extensions of a glTF in place.
 void add_attach_command(CLI::App& program, const cook::Registry& registry) {
-    CLI::App* command = program.add_subcommand("attach", "Give materials of a .gltf or .glb their gratings");
+    CLI::App* command = program.add_subcommand("attach", "Give materials of a .gltf or .glb their gratings or films");
     const auto options = std::make_shared<AttachOptions>();
     command->add_option("SCENE", options->scene, "The scene; without -o it is replaced")->required();
     command
         ->add_option("--material", options->attached,
-                     "A material, by name or as #NUMBER, and its grating (may be repeated)")
-        ->type_name("NAME GRATING.json");
-    command->add_option("--remove", options->removed, "Take a material's grating away (may be repeated)")
+                     "A material, by name or as #NUMBER, and its grating or film (may be repeated)")
+        ->type_name("NAME MATERIAL.json");
+    command->add_option("--remove", options->removed, "Take a material's grating or film away (may be repeated)")
         ->type_name("NAME")
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
@@ -128,14 +128,16 @@ void add_attach_command(CLI::App& program, const cook::Registry& registry) {
                      "Turn the grooves, from the tangent toward the bitangent")
         ->type_name("ANGLE");
     command
-        ->add_option("--groove-texture", options->texture,
-                     "An image that varies the grooves: red their direction, green their pitch")
+        ->add_option("--groove-texture,--thickness-texture", options->texture,
+                     "An image that varies the grooves: red their direction, green their pitch; or, in green, the "
+                     "film's thickness")
         ->type_name("IMAGE");
     command->add_option("-o,--output", options->output, "Write here instead");
     command->add_option("--depfile", options->depfile, "Write the files that were read, in Makefile syntax");
     command->footer(
-        "Writes what is named into the file's text and nothing else: all other bytes stay. A refused grating changes\n"
-        "nothing. The material's own surface stays under the grating; the grating's `base` is left out.\n\n"
+        "Writes what is named into the file's text and nothing else: all other bytes stay. What is refused changes\n"
+        "nothing. The material's own surface stays under the grating; the grating's `base` is left out, as is a\n"
+        "film's `roughness`. A material has a grating or a film: the one that is attached replaces the other.\n\n"
         "Example: rowland-cook attach truck.glb --material Chrome content/materials/dvd.json -o truck_dvd.glb");
     command->callback([options, &registry] { attach(registry, *options); });
 }
@@ -147,7 +149,7 @@ void add_list_command(CLI::App& program, const cook::Registry& registry, int& ex
     const auto scene = std::make_shared<std::filesystem::path>();
     command->add_option("SCENE", *scene, "The scene")->required();
     command->footer(
-        "Prints one line per material: its number, its name, its grating, the meshes that use it.\n\n"
+        "Prints one line per material: its number, its name, its grating or film, the meshes that use it.\n\n"
         "Example: rowland-cook list truck.glb");
     command->callback([scene, &registry, &exit_code] { exit_code = list_materials(registry, *scene); });
 }

@@ -72,7 +72,7 @@ const char* file_kind_name(FileKind kind) {
                                    "models (.gltf, .glb)",
                                    "lights (.hdr, .exr, .pic, .json)",
                                    "tables of efficiencies (.csv)",
-                                   "pictures of grooves (.png, .jpg, .jpeg)"};
+                                   "pictures (.png, .jpg, .jpeg)"};
     return kNames.at(static_cast<std::size_t>(kind));
 }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 #include "engine/core/error.h"
@@ -17,7 +18,9 @@ namespace {
 
 constexpr std::uint64_t kLargestMaterial = 1 << 20;
 constexpr std::size_t kMostSteps = 1000;
-constexpr const char* kTextureIndex = "/grooveTexture/index";
+constexpr std::array kTextures = {"/grooveTexture/index", "/iridescenceTexture/index",
+                                  "/iridescenceThicknessTexture/index"};
+constexpr std::array kExtensions = {diffraction::kGltfExtension, thin_film::kIridescenceExtension};
 
 std::filesystem::path folder_of(const std::filesystem::path& path) {
     return std::filesystem::absolute(path).parent_path();
@@ -35,24 +38,35 @@ std::filesystem::path unsaved_file(const std::filesystem::path& folder, const st
 
 }  // namespace
 
+const char* extension_of(const Json& object) {
+    return holds_film(object) ? thin_film::kIridescenceExtension : diffraction::kGltfExtension;
+}
+
 std::shared_ptr<const MaterialSource> accept_material(const Json& material, const std::string& file,
                                                       const std::filesystem::path& folder) {
-    diffraction::Material parsed =
-        diffraction::parse_material(nlohmann::json(material), file, diffraction::read_beside(folder));
-    diffraction::GltfGrating alone;
-    alone.material = parsed;
-    alone.has_base = true;
-    return std::make_shared<const MaterialSource>(MaterialSource{material, std::move(parsed), file, std::move(alone)});
+    const nlohmann::json json(material);
+    MaterialSource source{.json = material, .name = file, .parsed = {}};
+    if (json.is_object() && json.contains("film")) {
+        source.parsed = thin_film::parse_film_material(json, file);
+    } else {
+        diffraction::GltfGrating alone;
+        alone.material = diffraction::parse_material(json, file, diffraction::read_beside(folder));
+        alone.has_base = true;
+        source.parsed = std::move(alone);
+    }
+    return std::make_shared<const MaterialSource>(std::move(source));
 }
 
 std::shared_ptr<const MaterialSource> accept_extension(const Json& extension, const std::string& file,
                                                        const std::filesystem::path& folder, const std::string& pointer,
                                                        const NewTextures* textures) {
-    diffraction::GltfGrating parsed =
-        diffraction::parse_gltf_extension(nlohmann::json(extension), file, folder, pointer);
-    MaterialSource source{extension, parsed.material, file, std::move(parsed)};
-    if (textures != nullptr && source.gltf.groove_texture)
-        source.groove_picture = textures->find(static_cast<std::size_t>(source.gltf.groove_texture->index));
+    const nlohmann::json json(extension);
+    MaterialSource source{.json = extension, .name = file, .parsed = {}};
+    if (textures != nullptr) source.textures = *textures;
+    if (holds_film(extension))
+        source.parsed = thin_film::parse_gltf_iridescence(json, file, pointer);
+    else
+        source.parsed = diffraction::parse_gltf_extension(json, file, folder, pointer);
     return std::make_shared<const MaterialSource>(std::move(source));
 }
 
@@ -94,11 +108,20 @@ Document Document::open_scene(scene::EditableGltf file, std::span<const scene::P
     Document document(path.filename().string(), folder_of(path));
     document.path_ = path;
     for (std::size_t i = 0; i < file.outline().materials.size(); ++i) {
-        Slot slot{.json = file.material_extension(i, diffraction::kGltfExtension)};
-        if (!slot.json.is_null())
-            slot.accepted =
-                accept_extension(slot.json, path.string(), document.folder_,
-                                 fmt::format("/materials/{}/extensions/{}", i, diffraction::kGltfExtension));
+        Slot slot;
+        for (const char* name : kExtensions) {
+            const Json object = file.material_extension(i, name);
+            if (object.is_null()) continue;
+            const std::string pointer = fmt::format("/materials/{}/extensions/{}", i, name);
+            if (std::string_view(name) != extension_of(object))
+                refuse_input(path.string(), pointer + "/grating", holds_film(object) ? "missing" : "a grating",
+                             holds_film(object) ? "a grating" : "a film");
+            if (slot.accepted)
+                refuse_input(path.string(), pointer, "a film on a grating", "one of them",
+                             "remove one with rowland-cook attach --remove");
+            slot.json = object;
+            slot.accepted = accept_extension(object, path.string(), document.folder_, pointer);
+        }
         document.slots_.push_back(std::move(slot));
     }
     for (const scene::PrimitiveId& primitive : without_material) document.slots_.push_back({.primitive = primitive});
@@ -139,10 +162,10 @@ void Document::replace_quality(const Json& quality) {
     edit(with_value(json(), field_at("/quality"), quality), nullptr);
 }
 
-void Document::set_grating(const Json& grating, const std::string& name) {
+void Document::set_extension(const Json& object, const std::string& name) {
     if (!is_scene()) refuse_input(name_, {}, "a material file", "a scene", "open a .gltf or .glb file");
-    if (!grating.is_null()) accept_extension(grating, name, folder_);
-    edit(grating, nullptr);
+    if (!object.is_null()) accept_extension(object, name, folder_);
+    edit(object, nullptr);
 }
 
 void Document::edit(Json edited, const Field* field) {
@@ -217,14 +240,16 @@ scene::EditableGltf Document::edited_file(const std::filesystem::path& folder) c
     for (std::size_t i = 0; i < slots_.size(); ++i) {
         Json extension = moved(slots_[i].json, folder_, folder);
         if (extension == slots_[i].in_file) continue;
-        if (extension.contains(Json::json_pointer(kTextureIndex))) {
-            Json& texture = extension[Json::json_pointer(kTextureIndex)];
+        for (const char* index : kTextures) {
+            if (!extension.contains(Json::json_pointer(index))) continue;
+            Json& texture = extension[Json::json_pointer(index)];
             if (const auto added =
                     texture.is_number_unsigned() ? new_textures_.find(texture.get<std::size_t>()) : nullptr)
                 texture = file.add_texture(added->bytes, added->name);
         }
         const std::size_t material = slots_[i].primitive ? file.own_material(*slots_[i].primitive) : i;
-        file.set_material_extension(material, diffraction::kGltfExtension, extension);
+        for (const std::string name : kExtensions)
+            file.set_material_extension(material, name, name == extension_of(extension) ? extension : Json());
     }
     return file;
 }

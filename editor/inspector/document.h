@@ -7,6 +7,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "editor/inspector/field.h"
@@ -14,6 +15,8 @@
 #include "engine/scene/editable_gltf.h"
 #include "modules/diffraction/asset/gltf_extension.h"
 #include "modules/diffraction/asset/material.h"
+#include "modules/thin_film/asset/film_material.h"
+#include "modules/thin_film/asset/gltf_iridescence.h"
 
 namespace rowland::inspector {
 
@@ -39,21 +42,29 @@ class NewTextures {
     std::shared_ptr<const NewTexture> find(std::size_t index) const {
         return index >= kFirst && index - kFirst < all_.size() ? all_[index - kFirst] : nullptr;
     }
+    /// That of index kFirst and its successors.
+    std::span<const std::shared_ptr<const NewTexture>> all() const { return all_; }
 
  private:
     std::vector<std::shared_ptr<const NewTexture>> all_;
 };
 
-/// A material that the module's parser accepted, with its source. Never changes, so the pointer to it is its identity.
+/// A material that a module's parser accepted, with its source. Never changes, so the pointer to it is its identity.
 struct MaterialSource {
     Json json;
-    diffraction::Material material;
-    std::string name;                                       ///< of the file, for messages
-    diffraction::GltfGrating gltf = {};                     ///< `material` and, of a scene's, its grooves on the mesh
-    std::shared_ptr<const NewTexture> groove_picture = {};  ///< null: a texture of the file, or none
+    std::string name;  ///< of the file, for messages
+    /// A grating, without grooves on a mesh if it is a material file's; the film of a material file; that of a scene.
+    std::variant<diffraction::GltfGrating, thin_film::FilmMaterial, thin_film::GltfIridescence> parsed;
+    NewTextures textures = {};  ///< that the material may use besides those of the file
+
+    /// Null: a film.
+    const diffraction::GltfGrating* grating() const { return std::get_if<diffraction::GltfGrating>(&parsed); }
 };
 
-/// Parses a material file's object, or a scene material's extension, whose texture may be one of `textures`. Named
+/// The glTF extension that an object in a scene belongs to: a grating's or a film's.
+const char* extension_of(const Json& object);
+
+/// Parses a material file's object, or a scene material's extension, whose textures may be some of `textures`. Named
 /// files are relative to `folder`. Throws Error (input) naming `file` and a location below `pointer`.
 std::shared_ptr<const MaterialSource> accept_material(const Json& material, const std::string& file,
                                                       const std::filesystem::path& folder);
@@ -71,9 +82,9 @@ struct Refusal {
     std::string message;
 };
 
-/// The edited material file, or the gratings of all materials of a scene file, one of which is chosen; with the history
-/// for undo and redo. json() may contain values that the module's parser refuses; accepted() is the last material
-/// without such a value.
+/// The edited material file, or the gratings and films of all materials of a scene file, one of which is chosen; with
+/// the history for undo and redo. json() may contain values that the module's parser refuses; accepted() is the last
+/// material without such a value.
 class Document {
  public:
     /// Opens a material file. Throws Error (input) if it is refused; nothing is written.
@@ -82,9 +93,9 @@ class Document {
     static Document open_as_new(const std::filesystem::path& path);
     /// A new material. Files that it names are relative to `folder`. Throws Error (input) naming `name`.
     static Document make_new(Json material, std::string name, std::filesystem::path folder);
-    /// The gratings of a scene: of its materials, then of the primitives `without_material`, which get a material when
-    /// they are saved with a grating. Chooses the first material with a grating, else the first. Throws Error (input)
-    /// if a grating is refused.
+    /// The gratings and films of a scene: of its materials, then of the primitives `without_material`, which get a
+    /// material when they are saved with one. Chooses the first material with one, else the first. Throws Error (input)
+    /// if one is refused, or if a material has both.
     static Document open_scene(scene::EditableGltf file, std::span<const scene::PrimitiveId> without_material = {});
 
     bool is_scene() const { return file_.has_value(); }
@@ -93,15 +104,16 @@ class Document {
     std::size_t chosen() const { return chosen_; }
     void choose(std::size_t material);
 
-    /// The chosen material; null if it has no grating.
+    /// The chosen material; null if it has neither a grating nor a film.
     const Json& json() const { return json(chosen_); }
     const Json& json(std::size_t material) const { return slots_.at(material).json; }
-    bool has_grating() const { return accepted() != nullptr; }
-    /// The last accepted material; a new pointer whenever it changes. Null: no grating.
+    /// The last accepted material; a new pointer whenever it changes. Null: neither a grating nor a film.
     const std::shared_ptr<const MaterialSource>& accepted() const { return accepted(chosen_); }
     const std::shared_ptr<const MaterialSource>& accepted(std::size_t material) const;
+    bool has_grating() const { return accepted() && accepted()->grating() != nullptr; }
+    bool has_film() const { return accepted() && !has_grating(); }
     /// The chosen material must have a grating.
-    const diffraction::Material& material() const { return accepted()->material; }
+    const diffraction::Material& material() const { return accepted()->grating()->material; }
     const std::optional<Refusal>& refusal() const { return slots_[chosen_].refusal; }
 
     /// Edits. All edits of one field between two calls of finish_edit() are one step of undo.
@@ -110,9 +122,9 @@ class Document {
     void revert(const Field& field);
     /// Replaces all members of the quality in one step.
     void replace_quality(const Json& quality);
-    /// Sets the grating of the chosen material of a scene, the extension's object; null removes it. Throws Error
-    /// (input) naming `name` if it is refused.
-    void set_grating(const Json& grating, const std::string& name);
+    /// Sets the grating or the film of the chosen material of a scene, an extension's object; null removes it. Throws
+    /// Error (input) naming `name` if it is refused.
+    void set_extension(const Json& object, const std::string& name);
     void finish_edit() { editing_ = nullptr; }
 
     bool can_undo() const { return at_ > 0; }
@@ -136,7 +148,7 @@ class Document {
     /// Whether another program changed the scene file since it was opened.
     bool changed_outside() const { return file_ && file_->changed_on_disk(); }
 
-    /// Pictures for groove textures that are not in the scene file yet; saving adds those that a material uses.
+    /// Pictures for textures that are not in the scene file yet; saving adds those that a material uses.
     const NewTextures& new_textures() const { return new_textures_; }
     NewTextures& new_textures() { return new_textures_; }
 
@@ -158,7 +170,7 @@ class Document {
     struct Slot {
         std::optional<scene::PrimitiveId> primitive = {};  ///< for a primitive without a material
         Json json = {};
-        Json in_file = {};  ///< null: no grating
+        Json in_file = {};  ///< null: neither a grating nor a film
         std::shared_ptr<const MaterialSource> accepted = {};
         std::shared_ptr<const MaterialSource> saved = {};
         std::optional<Refusal> refusal = {};
@@ -175,7 +187,7 @@ class Document {
     void reparse(Slot& slot) const;
     void require_accepted() const;
     void mark_saved();
-    /// The scene file with the gratings as edited, for a folder.
+    /// The scene file with the gratings and films as edited, for a folder.
     scene::EditableGltf edited_file(const std::filesystem::path& folder) const;
     void write(const std::filesystem::path& path, bool over_changes);
     void write_copy(const std::filesystem::path& path, const std::filesystem::path& folder) const;

@@ -58,10 +58,33 @@ void write_json(const Json& value, std::size_t level, std::size_t used, std::str
 }
 
 /// Members in the order of files. Others go to the end of their object.
-constexpr std::array kFileOrder = {"grating",       "pitch_nm",       "grooves",      "profile", "orders",
-                                   "normalization", "groove_lobe",    "metal",        "cover",   "transmission",
-                                   "ior",           "tint",           "base",         "color",   "roughness",
-                                   "quality",       "grooveRotation", "grooveTexture"};
+constexpr std::array kFileOrder = {"grating",
+                                   "pitch_nm",
+                                   "grooves",
+                                   "profile",
+                                   "orders",
+                                   "normalization",
+                                   "groove_lobe",
+                                   "film",
+                                   "metal",
+                                   "cover",
+                                   "transmission",
+                                   "ior",
+                                   "thickness_nm",
+                                   "tint",
+                                   "base",
+                                   "color",
+                                   "roughness",
+                                   "quality",
+                                   "grooveRotation",
+                                   "grooveTexture",
+                                   "iridescenceFactor",
+                                   "iridescenceTexture",
+                                   "iridescenceIor",
+                                   "iridescenceThicknessMinimum",
+                                   "iridescenceThicknessMaximum",
+                                   "iridescenceThicknessTexture",
+                                   "extras"};
 
 auto position_in_file(const std::string& key) {
     return std::find(kFileOrder.begin(), kFileOrder.end(), key) - kFileOrder.begin();
@@ -85,6 +108,8 @@ const Json* find(const Json& material, const std::string& pointer) {
 }
 
 bool is_choice(const Json& value, const Choice& choice, const std::string& discriminator) {
+    if (value.is_array() && choice.value.is_array() && !choice.value.empty() && choice.value[0].is_object())
+        return value.size() == choice.value.size();
     if (!value.is_object() || !choice.value.is_object()) return discriminator.empty() && value == choice.value;
     if (!discriminator.empty()) return value.value(discriminator, Json()) == choice.value.value(discriminator, Json());
     return std::all_of(choice.value.items().begin(), choice.value.items().end(),
@@ -94,6 +119,14 @@ bool is_choice(const Json& value, const Choice& choice, const std::string& discr
 /// The value of the choice `to`. Members that `from` also has keep their values.
 Json carried_over(const Json& from, const Choice& to, const std::string& discriminator) {
     Json result = to.value;
+    // Of objects in a list the first ones stay; a list of one is written as an object.
+    const auto is_list = [](const Json& value) { return value.is_array() && !value.empty() && value[0].is_object(); };
+    if (is_list(from) && result.is_object()) return from[0];
+    if (is_list(result)) {
+        if (from.is_object()) result[0] = from;
+        for (std::size_t i = 0; is_list(from) && i < std::min(from.size(), result.size()); ++i) result[i] = from[i];
+        return result;
+    }
     if (!from.is_object() || !result.is_object()) return result;
     for (const auto& [key, member] : from.items())
         if (key != discriminator && result.contains(key)) result[key] = member;
@@ -127,8 +160,17 @@ std::string format_json(const Json& value) {
     return text + "\n";
 }
 
+bool holds_film(const Json& material) {
+    return !material.is_null() && !material.contains("grating");
+}
+
+std::vector<std::span<const Field>> fields_of(const Json& material) {
+    if (!holds_film(material)) return {groove_fields(), fields()};
+    return {material.contains("film") ? film_fields() : iridescence_fields()};
+}
+
 const Field& field_at(std::string_view pointer) {
-    for (const auto all : {fields(), groove_fields()}) {
+    for (const auto all : {fields(), groove_fields(), film_fields(), iridescence_fields()}) {
         const auto found = std::ranges::find(all, pointer, &Field::pointer);
         if (found != all.end()) return *found;
     }
@@ -142,7 +184,7 @@ bool is_shown(const Field& field, const Json& material) {
 }
 
 const Field* shown_field(std::string_view pointer, const Json& material) {
-    for (const auto all : {fields(), groove_fields()})
+    for (const auto all : fields_of(material))
         for (const Field& field : all)
             if (field.pointer == pointer && is_shown(field, material)) return &field;
     return nullptr;
@@ -188,6 +230,10 @@ Json with_value(const Json& material, const Field& field, const Json& value) {
         const std::size_t end = std::min(path.find('/'), path.size());
         const std::string key(path.substr(0, end));
         path.remove_prefix(end);
+        if (at->is_array()) {
+            at = &at->at(std::stoul(key));
+            continue;
+        }
         if (!at->is_object()) *at = Json::object();
         if (path.empty() && value.is_null()) {
             at->erase(key);
@@ -203,6 +249,18 @@ Json with_value(const Json& material, const Field& field, const Json& value) {
     *at = plain(value);
     return result;
 }
+
+namespace {
+
+/// The material, whose field was set, with the member that stands in place of it set or removed.
+Json with_alternative(const Json& material, const Field& field) {
+    if (field.alternative.empty()) return material;
+    const Field other{.pointer = field.alternative, .label = {}};
+    if (find(material, field.pointer) != nullptr) return with_value(material, other, nullptr);
+    return field.alternative_value.is_null() ? material : with_value(material, other, field.alternative_value);
+}
+
+}  // namespace
 
 Json with_pitch(const Json& material, double pitch_nm) {
     const Field& pitch = field_at("/grating/pitch_nm");
@@ -226,11 +284,11 @@ Json with_choice(const Json& material, const Field& field, const std::string& na
     // The illuminant does not depend on the choice.
     const Json* illuminant = find(material, "/quality/illuminant");
     if (field.pointer == "/quality" && illuminant != nullptr) value["illuminant"] = *illuminant;
-    return with_value(material, field, value);
+    return with_alternative(with_value(material, field, value), field);
 }
 
 Json reverted(const Json& material, const Field& field) {
-    return with_value(material, field, field.required ? field.default_value : Json());
+    return with_alternative(with_value(material, field, field.required ? field.default_value : Json()), field);
 }
 
 double shown_number(const Field& field, double stored) {

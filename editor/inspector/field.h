@@ -34,6 +34,10 @@ struct Choice {
     Json value;  ///< null: the member is left out
 };
 
+/// Whether the object of a sane material, of a file or of a scene's extension, is a film's and not a grating's. Null:
+/// neither.
+bool holds_film(const Json& material);
+
 /// One field of a material file: label, range, tooltip and reset value of its control. Several fields may have the same
 /// pointer; a material shows at most one of them.
 struct Field {
@@ -56,16 +60,26 @@ struct Field {
     /// always.
     std::string only_with{};
     std::vector<std::string> only_for{};
+    /// Of a choice: the member that stands in place of this one. A value removes it; no value sets it to
+    /// `alternative_value`, or leaves it alone if that is null.
+    std::string alternative{};
+    Json alternative_value{};
     /// Defaults by the choice of `only_with`; for other choices `default_value`.
     std::vector<Choice> defaults_by_choice{};
 };
 
-/// All fields of a material file, in the order of display.
+/// All fields of a grating's material file, in the order of display.
 std::span<const Field> fields();
-/// The additional fields of a scene's material: its grooves on the mesh.
+/// The additional fields of a scene's grating: its grooves on the mesh.
 std::span<const Field> groove_fields();
+/// All fields of a film's material file, and of a scene's film.
+std::span<const Field> film_fields();
+std::span<const Field> iridescence_fields();
 
-/// The first field at a JSON pointer, which must exist.
+/// The lists of fields that a material may show.
+std::vector<std::span<const Field>> fields_of(const Json& material);
+
+/// The first field at a JSON pointer, which must exist; gratings' come first.
 const Field& field_at(std::string_view pointer);
 
 /// Whether the field applies to the material.

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "editor/inspector/field.h"
+#include "editor/inspector/field_parts.h"
 #include "engine/colour/illuminant.h"
 #include "engine/lighting/key_lights.h"
 #include "modules/diffraction/asset/gltf_extension.h"
@@ -32,64 +33,6 @@ const char* const kPaper = "Lindsay & Agu 2006";
 const char* const kFresnel = "Fresnel's equations";
 const char* const kGoodman = "Goodman, Introduction to Fourier Optics, ch. 4";
 const char* const kStam = "Stam 1999, Diffraction shaders";
-
-Field plain(FieldKind kind, std::string pointer, std::string label, Json default_value, std::string help,
-            std::string source) {
-    return {.pointer = std::move(pointer),
-            .label = std::move(label),
-            .kind = kind,
-            .default_value = std::move(default_value),
-            .help = std::move(help),
-            .source = std::move(source)};
-}
-
-struct Range {
-    double minimum = 0.0;
-    double maximum = 1.0;
-    const char* unit = "";
-    bool logarithmic = false;
-};
-constexpr bool kLogarithmic = true;
-constexpr Range kTurn{-std::numbers::pi, std::numbers::pi, "rad"};
-
-Field slider(FieldKind kind, std::string pointer, std::string label, const Range& range, Json default_value,
-             std::string help, std::string source) {
-    Field field =
-        plain(kind, std::move(pointer), std::move(label), std::move(default_value), std::move(help), std::move(source));
-    field.unit = range.unit;
-    field.minimum = range.minimum;
-    field.maximum = range.maximum;
-    field.logarithmic = range.logarithmic;
-    return field;
-}
-
-Field choice(std::string pointer, std::string label, Json default_value, std::vector<Choice> choices, std::string help,
-             std::string source) {
-    Field field = plain(FieldKind::Choice, std::move(pointer), std::move(label), std::move(default_value),
-                        std::move(help), std::move(source));
-    field.choices = std::move(choices);
-    return field;
-}
-
-Field required(Field field) {
-    field.required = true;
-    return field;
-}
-
-/// Restricts fields to one choice of the field at the pointer `other`.
-std::vector<Field> shown_for(const std::string& other, const std::string& choice, std::vector<Field> fields) {
-    for (Field& field : fields) {
-        field.only_with = other;
-        field.only_for = {choice};
-    }
-    return fields;
-}
-
-std::vector<Field> joined(std::initializer_list<std::vector<Field>> parts) {
-    std::vector<Field> all;
-    for (const std::vector<Field>& part : parts) all.insert(all.end(), part.begin(), part.end());
-    return all;
-}
 
 /// The field with the pointer of `field`, which is added if there is none.
 Field& merged_into(std::vector<Field>& fields, const Field& field) {
@@ -432,28 +375,6 @@ std::vector<Field> light_fields() {
                                       "CIE 15, Colorimetry")};
 }
 
-std::vector<Field> groove_texture_fields() {
-    const std::string transform = "/grooveTexture/extensions/KHR_texture_transform/";
-    const char* const source = "KHR_texture_transform";
-    return {
-        required(slider(Count, "/grooveTexture/index", "Texture", {0.0, 1e9}, 0,
-                        "Number of the texture in the file, from 0. Pictures that are not saved yet are numbered "
-                        "from 1000000 on.",
-                        diffraction::kGltfExtension)),
-        slider(Count, "/grooveTexture/texCoord", "UV set", {}, 0, "The set of texture coordinates of the mesh; 0 or 1.",
-               "glTF 2.0, textureInfo"),
-        choice("/grooveTexture/sparkle", "Sparkle", nullptr, {{"off", nullptr}, {"on", true}},
-               "on: a pixel shows the grooves of one texel, so that small cells sparkle. off: the mean over the "
-               "pixel's texels.",
-               diffraction::kGltfExtension),
-        slider(Pair, transform + "offset", "Offset", {-1.0, 1.0}, {0.0, 0.0},
-               "Offset of the texture on the mesh, in texture coordinates.", source),
-        slider(Pair, transform + "scale", "Repeats", {0.0, 10.0}, {1.0, 1.0},
-               "Number of repetitions of the texture over one unit of u and of v.", source),
-        slider(Number, transform + "rotation", "Rotation", kTurn, 0.0,
-               "Rotation of the texture about the origin of its coordinates. It does not rotate the grooves.", source)};
-}
-
 }  // namespace
 
 std::span<const Field> fields() {
@@ -472,7 +393,12 @@ std::span<const Field> groove_fields() {
                  "Varies the grooves over the mesh. R: rotation / 180 degrees, G: pitch / (2 pitch_nm), 0 where there "
                  "is no grating.",
                  diffraction::kGltfExtension)},
-         shown_for("/grooveTexture", "texture", groove_texture_fields())});
+         shown_for("/grooveTexture", "texture",
+                   joined({texture_fields("/grooveTexture", diffraction::kGltfExtension),
+                           {choice("/grooveTexture/sparkle", "Sparkle", nullptr, {{"off", nullptr}, {"on", true}},
+                                   "on: a pixel shows the grooves of one texel, so that small cells sparkle. off: the "
+                                   "mean over the pixel's texels.",
+                                   diffraction::kGltfExtension)}}))});
     return all;
 }
 

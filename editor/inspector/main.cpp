@@ -46,7 +46,7 @@ constexpr const char* kFooter =
     "example:\n"
     "  rowland-inspector my_foil.json --probe stage.hdr --shape sheet\n"
     "  rowland-inspector --preset dvd --capture inspector.png --size 1600x1000\n\n"
-    "Drop a material, a glTF file, a probe or a table of efficiencies onto the window to open it.\n"
+    "Drop a material, a glTF file, a probe, a picture or a table of efficiencies onto the window to open it.\n"
     "Keys: F1 lists all. Tab and arrows move through all controls, Space and Enter use them; Ctrl+Z undoes and\n"
     "Ctrl+Shift+Z redoes, Ctrl+S saves, Ctrl+O opens, Ctrl+= and Ctrl+- change the size of text, Ctrl+1 to Ctrl+5\n"
     "choose the shape, F6 compares with the saved version, F12 writes a screenshot. Drag the preview to orbit, turn\n"
@@ -73,14 +73,15 @@ void check_outputs(const Options& options) {
 /// Prints help and returns nullopt if only help was requested. Throws Error (input) for bad usage, and for an output
 /// file that cannot be written or is also an input.
 std::optional<Options> parse_options(int argc, const char* const* argv) {
-    CLI::App app{"Rowland's material inspector: edit a grating and see its colours, its physics and its cost.",
-                 "rowland-inspector"};
+    CLI::App app{
+        "Rowland's material inspector: edit a grating or a thin film and see its colours, its physics and its cost.",
+        "rowland-inspector"};
     app.footer(kFooter);
     Options options;
     options.content_folder = std::filesystem::path(ROWLAND_SOURCE_DIR) / "content";
     std::string shape;
-    app.add_option("FILE", options.file, "A material (.json), or a glTF file whose mesh and grating to start from");
-    app.add_option("--preset", options.preset, "Start from a shipped material: cd, cd_r, dvd, blu_ray, ruled_600, …");
+    app.add_option("FILE", options.file, "A material (.json), or a glTF file whose gratings and films to edit");
+    app.add_option("--preset", options.preset, "Start from a shipped material: cd, cd_r, dvd, blu_ray, soap_film, …");
     app::add_common_options(app, options, "Write the window as PNG once all is computed, without opening a window");
     app.add_option("--shape", shape, "Shape of the preview: disc, sphere, card, sheet")
         ->check(CLI::IsMember({"disc", "sphere", "card", "sheet"}));
@@ -254,7 +255,7 @@ void capture_window(Session& session, const Options& options, const post::OcioCo
     do {
         draw_frame();
         settle(session);
-    } while (session.busy());
+    } while (session.busy() || window_frame.workbench().due());
     for (int frame = 0; frame < 2; ++frame) draw_frame();
     view::write_display_capture(draw_frame(), *options.capture);
 }

@@ -67,6 +67,7 @@ void begin_control() {
 
 const char* section_of(const Field& field) {
     if (field.pointer.starts_with("/grating")) return "Grating";
+    if (field.pointer.starts_with("/film") || field.pointer.starts_with("/iridescence")) return "Film";
     if (field.pointer.starts_with("/groove")) return "Grooves on the mesh";
     return field.pointer.starts_with("/quality") ? "Quality" : "Surface";
 }
@@ -147,12 +148,14 @@ void draw_lines_per_mm(Document& document, ControlMap& controls) {
     }
 }
 
-/// "1600 nm slit"; "–": none.
+/// "1600 nm slit", "400 nm film"; "–": none.
 std::string summary_of(const Document& document, std::size_t material) {
     const auto& source = document.accepted(material);
     if (!source) return "–";
+    if (const auto* film = std::get_if<thin_film::GltfIridescence>(&source->parsed))
+        return fmt::format("{:g} nm film", film->maximum_thickness_nm);
     const Field* profile = shown_field("/grating/profile", source->json);
-    return fmt::format("{:g} nm {}", source->material.grating.pitch_nm,
+    return fmt::format("{:g} nm {}", source->grating()->material.grating.pitch_nm,
                        profile != nullptr ? choice_of(*profile, source->json) : "");
 }
 
@@ -214,7 +217,7 @@ void draw_attach(OpenDocument& opened, const char* label, ControlMap& controls) 
     }
     controls.mark("attach");
     if (ImGui::IsItemHovered())
-        ImGui::SetTooltip("Gives the chosen material a grating. Or open or drop a material file.");
+        ImGui::SetTooltip("Gives the chosen material a grating or a film. Or open or drop a material file.");
 }
 
 void draw_patterns(OpenDocument& opened, ControlMap& controls) {
@@ -234,17 +237,16 @@ void draw_patterns(OpenDocument& opened, ControlMap& controls) {
 
 void draw_actions(OpenDocument& opened, ControlMap& controls) {
     const Document& document = opened.document();
-    const bool has = document.has_grating();
+    const bool has = document.accepted() != nullptr;
     draw_attach(opened, has ? "Replace…" : "Attach…", controls);
     ImGui::SameLine();
-    if (enabled_button("Copy", "copy grating", has, controls))
-        ImGui::SetClipboardText(format_json(document.json()).c_str());
+    if (enabled_button("Copy", "copy", has, controls)) ImGui::SetClipboardText(format_json(document.json()).c_str());
     ImGui::SameLine();
     const char* clipboard = ImGui::GetClipboardText();
     const bool pasteable = clipboard != nullptr && std::string_view(clipboard).starts_with('{');
-    if (enabled_button("Paste", "paste grating", pasteable, controls)) opened.paste_grating(clipboard);
+    if (enabled_button("Paste", "paste", pasteable, controls)) opened.paste(clipboard);
     ImGui::SameLine();
-    if (enabled_button("Remove", "remove grating", has, controls)) opened.remove_grating();
+    if (enabled_button("Remove", "remove", has, controls)) opened.remove();
 }
 
 }  // namespace
@@ -253,9 +255,10 @@ void MaterialPanel::draw(Document& document, ControlMap& controls) {
     std::string section;
     bool open = false;
     if (document.refusal() && document.refusal()->field == nullptr) draw_refusal(*document.refusal());
-    for (const auto all : {document.is_scene() ? groove_fields() : std::span<const Field>(), fields()})
+    for (const auto all : fields_of(document.json()))
         for (const Field& field : all) {
-            if (!is_shown(field, document.json())) continue;
+            const bool of_scene = all.data() == groove_fields().data();
+            if ((of_scene && !document.is_scene()) || !is_shown(field, document.json())) continue;
             if (section != section_of(field)) {
                 section = section_of(field);
                 open = ImGui::CollapsingHeader(section.c_str(), ImGuiTreeNodeFlags_DefaultOpen);
@@ -340,7 +343,7 @@ void ScenePanel::draw(OpenDocument& opened, View& view, ControlMap& controls) {
     const SceneObject* scene = opened.scene();
     if (scene == nullptr) return;
     const bool has_grating = opened.document().has_grating();
-    if (scene->materials.empty()) return draw_wrapped("No mesh of the scene can have a grating.");
+    if (scene->materials.empty()) return draw_wrapped("No mesh of the scene can have a grating or a film.");
     draw_list(opened, controls);
     const SceneMaterial& chosen = scene->materials[opened.document().chosen()];
     ImGui::TextUnformatted(chosen.name.c_str());
@@ -350,13 +353,15 @@ void ScenePanel::draw(OpenDocument& opened, View& view, ControlMap& controls) {
     if (has_grating) {
         draw_patterns(opened, controls);
         ImGui::SameLine();
+        ImGui::Checkbox("Show grooves", &view.shows_grooves);
+        controls.mark("show grooves");
+        if (ImGui::IsItemHovered())
+            ImGui::SetTooltip("Strokes along the grooves. Drag the yellow handle to rotate them.");
     }
-    ImGui::Checkbox("Show grooves", &view.shows_grooves);
-    controls.mark("show grooves");
-    if (ImGui::IsItemHovered()) ImGui::SetTooltip("Strokes along the grooves. Drag the yellow handle to rotate them.");
     controls.note("chosen material", chosen.name);
     controls.note("tangents", origin_of(chosen.tangents));
-    if (!has_grating) draw_wrapped("No grating. Attach a preset, paste a copied grating, or drop a material file.");
+    if (!opened.document().accepted())
+        draw_wrapped("No grating or film. Attach a preset, paste a copied one, or drop a material file.");
 }
 
 void ScenePanel::draw_list(OpenDocument& opened, ControlMap& controls) {

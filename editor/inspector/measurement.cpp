@@ -89,13 +89,15 @@ bool Measurement::update() {
 void Measurement::want_pattern() {
     const auto& source = document().accepted();
     pattern_.want(
-        source && source->material.grating.lattice ? std::optional(source) : std::nullopt,
-        [source](auto&&...) { return std::make_shared<const PatternFigure>(pattern_figure(source->material)); });
+        document().has_grating() && document().material().grating.lattice ? std::optional(source) : std::nullopt,
+        [source](auto&&...) {
+            return std::make_shared<const PatternFigure>(pattern_figure(source->grating()->material));
+        });
 }
 
 void Measurement::want_point_numbers() {
     std::optional<PointInputs> inputs;
-    if (document_.is_cooked() && light_.current() && view_.preview().drawn())
+    if (document_.is_cooked() && document_.cooked() && light_.current() && view_.preview().drawn())
         inputs = {document_.cooked(), light_.current(), view_.point()};
     if (point_.wants(inputs)) return;  // the search for a point below is expensive
     if (!inputs) return point_.want(inputs, nullptr);
@@ -133,7 +135,7 @@ Measurement::Prices::Work Measurement::price_work(bool pinned_only) const {
         const auto report = [&](const PriceList& list) { publish(last = list); };
         report(last);
         const bool has_quality = source->json.contains("quality");
-        diffraction::Material material = source->material;
+        diffraction::Material material = source->grating()->material;
         material.quality.surface = surface;
         price_choices({.material = std::move(material),
                        .quality = has_quality ? nlohmann::json(source->json["quality"]) : nlohmann::json(),

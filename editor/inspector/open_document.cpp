@@ -12,6 +12,7 @@
 #include "engine/core/json_reader.h"
 #include "modules/diffraction/asset/gltf_extension.h"
 #include "modules/diffraction/asset/material.h"
+#include "modules/thin_film/asset/gltf_iridescence.h"
 
 namespace rowland::inspector {
 
@@ -38,6 +39,10 @@ constexpr Preset kPresets[] = {
     {"phone_screen", "Phone screen", "Sheets and screens"},
     {"feather", "Feather", "Nature"},
     {"butterfly_wing", "Butterfly's wing", "Nature"},
+    {"soap_film", "Soap film", "Thin films"},
+    {"oil_on_water", "Oil on water", "Thin films"},
+    {"coated_lens", "Coated lens", "Thin films"},
+    {"anodised_titanium", "Anodised titanium", "Thin films"},
 };
 
 bool has_extension(const std::filesystem::path& path, std::initializer_list<const char*> extensions) {
@@ -48,9 +53,20 @@ bool is_scene_file(const std::filesystem::path& path) {
     return has_extension(path, {".gltf", ".glb"});
 }
 
-/// A PNG or JPEG, for groove textures.
+/// A PNG or JPEG, for textures of grooves or of thickness.
 bool is_picture_file(const std::filesystem::path& path) {
     return has_extension(path, {".png", ".jpg", ".jpeg"});
+}
+
+/// A sane material file's object as a scene holds it; `file` is for messages.
+Json as_extension(const Json& material, const std::filesystem::path& from, const std::filesystem::path& folder,
+                  const std::string& file) {
+    return holds_film(material) ? thin_film::gltf_object(material, file)
+                                : diffraction::gltf_object(material, from, folder);
+}
+
+const char* kind_of(const Document& document) {
+    return document.has_film() ? "film" : "grating";
 }
 
 bool is_table(const diffraction::Grating& grating) {
@@ -70,7 +86,7 @@ OpenDocument::OpenDocument(std::filesystem::path presets, Messages& messages)
     : presets_(std::move(presets)),
       messages_(messages),
       document_(Document::open_as_new(presets_ / "cd.json")),
-      cook_(std::make_shared<GratingCook>(nullptr)) {}
+      cook_(std::make_shared<SurfaceCook>(nullptr)) {}
 
 std::string OpenDocument::chosen_name() const {
     return scene() != nullptr && document_.chosen() < scene()->materials.size()
@@ -84,8 +100,7 @@ void OpenDocument::open(const std::filesystem::path& path) {
         if (is_scene_file(path)) {
             opening_path_ = std::make_shared<const std::filesystem::path>(path);
         } else if (is_picture_file(path)) {
-            set_groove_picture(as_groove_picture(read_file(path, kLargestPicture), file),
-                               std::filesystem::path(file).replace_extension(".png").string());
+            use_picture(read_file(path, kLargestPicture), file);
         } else if (has_extension(path, {".csv"})) {
             opened_table_ = diffraction::parse_efficiency_csv(read_text_file(path, diffraction::kMaximumNamedFileSize),
                                                               path.string());
@@ -135,8 +150,8 @@ void OpenDocument::replace(Document document, std::shared_ptr<const PreviewObjec
     document_ = std::move(document);
     ++replacements_;
     object_ = std::move(object);
-    cook_ = std::make_shared<GratingCook>(object_ ? object_->scene : nullptr);
-    scene_gratings_.reset();
+    cook_ = std::make_shared<SurfaceCook>(object_ ? object_->scene : nullptr);
+    scene_surfaces_.reset();
     if (object_) return;
     messages_.say(document_.name() + (document_.path().empty() ? ": the start of a new material" : ": opened"));
 }
@@ -147,18 +162,18 @@ void OpenDocument::replace(OpenedScene opened) {
     replace(std::move(opened.document), std::move(object));
     const std::string file = document_.name();
     for (const std::string& warning : scene()->imported.warnings) messages_.say(file + ": " + warning);
-    std::size_t gratings = 0;
-    for (std::size_t i = 0; i < document_.material_count(); ++i) gratings += document_.accepted(i) ? 1 : 0;
+    std::size_t surfaces = 0;
+    for (std::size_t i = 0; i < document_.material_count(); ++i) surfaces += document_.accepted(i) ? 1 : 0;
     messages_.say(
-        fmt::format("{}: opened: {} materials, {} with a grating", file, scene()->materials.size(), gratings));
+        fmt::format("{}: opened: {} materials, {} with a grating or film", file, scene()->materials.size(), surfaces));
 }
 
 void OpenDocument::use_material(Document material, const std::filesystem::path& path) {
     if (!document_.is_scene()) return replace(std::move(material), nullptr);
-    document_.set_grating(
-        diffraction::gltf_object(material.json(), std::filesystem::absolute(path).parent_path(), document_.folder()),
+    document_.set_extension(
+        as_extension(material.json(), std::filesystem::absolute(path).parent_path(), document_.folder(), path.string()),
         material.name());
-    messages_.say(material.name() + ": the grating of " + chosen_name());
+    messages_.say(material.name() + ": the " + kind_of(document_) + " of " + chosen_name());
 }
 
 void OpenDocument::start_opening() {
@@ -207,32 +222,50 @@ void OpenDocument::save_as(const std::filesystem::path& path) {
     if (messages_.attempt([&] { document_.save_as(path); })) messages_.say(path.string() + ": saved");
 }
 
-void OpenDocument::paste_grating(const std::string& text) {
+void OpenDocument::paste(const std::string& text) {
     messages_.attempt([&] {
-        document_.set_grating(parse_ordered(text, "the clipboard"), "the clipboard");
-        messages_.say("the grating of " + chosen_name() + " is the clipboard's");
+        const Json object = parse_ordered(text, "the clipboard");
+        const bool is_file = object.is_object() && object.contains("film");
+        if (is_file) accept_material(object, "the clipboard", document_.folder());
+        document_.set_extension(
+            is_file ? as_extension(object, document_.folder(), document_.folder(), "the clipboard") : object,
+            "the clipboard");
+        messages_.say(fmt::format("the {} of {} is the clipboard's", kind_of(document_), chosen_name()));
     });
 }
 
-void OpenDocument::remove_grating() {
+void OpenDocument::remove() {
     messages_.attempt([&] {
-        document_.set_grating(nullptr, document_.name());
-        messages_.say(chosen_name() + ": without a grating");
+        const std::string kind = kind_of(document_);
+        document_.set_extension(nullptr, document_.name());
+        messages_.say(chosen_name() + ": without a " + kind);
     });
+}
+
+void OpenDocument::use_picture(std::vector<std::byte> picture, const std::string& name) {
+    if (document_.is_scene() && document_.has_film())
+        return set_texture(field_at("/iridescenceThicknessTexture"), std::move(picture), name);
+    set_groove_picture(as_groove_picture(picture, name),
+                       std::filesystem::path(name).replace_extension(".png").string());
 }
 
 void OpenDocument::set_groove_picture(std::vector<std::byte> picture, const std::string& name) {
     if (!document_.is_scene() || !document_.has_grating())
-        refuse_input(
-            name, {}, "a picture", "a scene with a grating on the chosen material",
-            "open a .gltf or .glb, choose a material and attach a grating; the picture then varies its grooves");
+        refuse_input(name, {}, "a picture", "a scene with a grating or a film on the chosen material",
+                     "open a .gltf or .glb, choose a material and attach a grating or a film; the picture then varies "
+                     "its grooves or thickness");
+    set_texture(field_at("/grooveTexture"), std::move(picture), name);
+}
+
+void OpenDocument::set_texture(const Field& field, std::vector<std::byte> picture, const std::string& name) {
     const std::size_t index = document_.new_textures().add(std::move(picture), name);
-    Json texture = document_.json().value("grooveTexture", Json::object());
+    Json texture = value_of(field, document_.json());
+    if (texture.is_null()) texture = Json::object();
     texture["index"] = index;
     document_.finish_edit();
-    document_.set_value(field_at("/grooveTexture"), texture);
+    document_.set_value(field, texture);
     document_.finish_edit();
-    messages_.say(name + ": the grooves of " + chosen_name());
+    messages_.say(fmt::format("{}: the {} of {}", name, document_.has_film() ? "thickness" : "grooves", chosen_name()));
 }
 
 void OpenDocument::set_foil_pattern(const std::string& name) {
@@ -240,8 +273,9 @@ void OpenDocument::set_foil_pattern(const std::string& name) {
 }
 
 void OpenDocument::cook(Cooking& cooking, const std::shared_ptr<const MaterialSource>& source) {
-    cooking.want(source ? std::optional(source) : std::nullopt,
-                 [cook = cook_, source](auto&&...) { return cook->cook(*source); });
+    cooking.want(
+        source ? std::optional(source) : std::nullopt,
+        [cook = cook_, source, material = document_.chosen()](auto&&...) { return cook->cook(*source, material); });
 }
 
 bool OpenDocument::update() {
@@ -251,30 +285,35 @@ bool OpenDocument::update() {
     cook(saved_, document_.saved());
     const auto change = cooked_.poll();
     if (!change.failure.empty()) messages_.say(change.failure, true);
-    if (change.value && !is_table((*cooked_.value())->material->material.grating))
+    if (change.value && (*cooked_.value())->material && !is_table((*cooked_.value())->material->material.grating))
         last_scalar_ = (*cooked_.value())->material->material.grating;
     news = change.value || !change.failure.empty() || news;
     news = saved_.poll().value || news;  // cooked_ reports the same failure
-    news = scene_gratings_.update(document_, cook_, cooked_.current() ? *cooked_.value() : nullptr) || news;
-    for (std::string& failure : scene_gratings_.take_failures()) messages_.say(std::move(failure), true);
+    news = scene_surfaces_.update(document_, cook_, cooked_.current() ? *cooked_.value() : nullptr) || news;
+    for (std::string& failure : scene_surfaces_.take_failures()) messages_.say(std::move(failure), true);
     return news;
 }
 
 bool OpenDocument::busy() const {
     const auto& source = document_.accepted();
     return !cooked_.wants(source ? std::optional(source) : std::nullopt) || cooked_.busy() || saved_.busy() ||
-           scene_gratings_.busy() || opening_path_ != nullptr;
+           scene_surfaces_.busy() || opening_path_ != nullptr;
 }
 
-std::shared_ptr<const CookedGrating> OpenDocument::grating(bool as_saved) const {
+std::shared_ptr<const CookedSurface> OpenDocument::surface(bool as_saved) const {
     const Cooking& cooking = as_saved ? saved_ : cooked_;
-    return document_.has_grating() && cooking.value() != nullptr ? *cooking.value() : nullptr;
+    return document_.accepted() && cooking.value() != nullptr ? *cooking.value() : nullptr;
 }
 
-Gratings OpenDocument::gratings(bool as_saved) const {
-    Gratings all = scene_gratings_.all();
-    if (as_saved) all.at(document_.chosen()) = grating(true);
+CookedSurfaces OpenDocument::surfaces(bool as_saved) const {
+    CookedSurfaces all = scene_surfaces_.all();
+    if (as_saved) all.at(document_.chosen()) = surface(true);
     return all;
+}
+
+std::shared_ptr<const thin_film::CookedFilm> OpenDocument::film() const {
+    const auto cooked = document_.has_film() ? surface(false) : nullptr;
+    return cooked && cooked->film ? cooked->film->cooked : nullptr;
 }
 
 std::optional<diffraction::Grating> OpenDocument::compared() const {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "editor/inspector/cooked_gratings.h"
+#include "editor/inspector/cooked_surfaces.h"
 #include "editor/inspector/document.h"
 #include "editor/inspector/preview_object.h"
 #include "engine/core/computed.h"
@@ -23,8 +23,8 @@ struct Preset {
     const char* category;
 };
 
-/// The document that is edited, its scene, and its cooked gratings. Opens and saves files; cooks in the background what
-/// is edited. Bad input becomes a message and changes nothing else. Needs a current context.
+/// The document that is edited, its scene, and its cooked gratings and films. Opens and saves files; cooks in the
+/// background what is edited. Bad input becomes a message and changes nothing else. Needs a current context.
 class OpenDocument {
  public:
     using Cooked = std::shared_ptr<const diffraction::CookedMaterial>;
@@ -46,15 +46,16 @@ class OpenDocument {
     /// The name of the chosen material of a scene, or of the document.
     std::string chosen_name() const;
 
-    /// Opens a material, a glTF file, a picture of grooves or a table of efficiencies. A glTF file is opened in the
-    /// background. A material replaces the document; if a scene is open, it becomes the grating of the chosen material.
+    /// Opens a material, a glTF file, a picture of grooves or of a film's thickness, or a table of efficiencies. A glTF
+    /// file is opened in the background. A material replaces the document; if a scene is open, it becomes the grating
+    /// or the film of the chosen material.
     void open(const std::filesystem::path& path);
     /// Waits until the glTF file is open.
     void finish_opening();
     void cancel_opening();
     /// The glTF file that is being opened; empty: none.
     std::filesystem::path opening() const { return opening_path_ ? *opening_path_ : std::filesystem::path(); }
-    /// Opens a shipped material ("cd") as the start of a new one, or as the grating of the scene's chosen material.
+    /// Opens a shipped material ("cd") as the start of a new one, or attaches it to the scene's chosen material.
     /// Returns whether it could.
     bool open_preset(const std::string& name);
     /// Those of one category are contiguous.
@@ -73,13 +74,13 @@ class OpenDocument {
     /// call. Throws Error (system).
     std::vector<std::string> demo_arguments();
 
-    /// Sets the grating of the scene's chosen material from JSON text; removes it.
-    void paste_grating(const std::string& text);
-    void remove_grating();
+    /// Sets the grating or the film of the scene's chosen material from JSON text; removes it.
+    void paste(const std::string& text);
+    void remove();
     /// Sets a foil pattern (groove_picture.h) as the groove texture of the chosen material.
     void set_foil_pattern(const std::string& name);
 
-    /// Call it every frame. Returns whether there is a new document, grating or message.
+    /// Call it every frame. Returns whether there is a new document, surface or message.
     bool update();
     /// Whether something is being opened or cooked, or will be.
     bool busy() const;
@@ -87,16 +88,18 @@ class OpenDocument {
     /// Whether cooked() is the document's.
     bool is_cooked() const { return cooked_.current(); }
 
-    /// The chosen material as last cooked; null before the first, and for a scene's material without a grating.
+    /// The grating of the chosen material as last cooked; null before the first, and without a grating.
     Cooked cooked() const {
         return document_.has_grating() && cooked_.value() ? (*cooked_.value())->material : nullptr;
     }
-    /// The chosen material of the file, cooked; null if there is none, or not yet.
+    /// The grating of the chosen material of the file, cooked; null if there is none, or not yet.
     Cooked saved() const { return document_.saved() && saved_.value() ? (*saved_.value())->material : nullptr; }
-    /// The grating of the chosen material as last cooked, as edited or as saved; null: none, or not yet.
-    std::shared_ptr<const CookedGrating> grating(bool as_saved) const;
-    /// The gratings of all materials of a scene, with that of the chosen one as edited or as saved.
-    Gratings gratings(bool as_saved) const;
+    /// The grating or film of the chosen material as last cooked, as edited or as saved; null: none, or not yet.
+    std::shared_ptr<const CookedSurface> surface(bool as_saved) const;
+    /// Those of all materials of a scene, with that of the chosen one as edited or as saved.
+    CookedSurfaces surfaces(bool as_saved) const;
+    /// The film of the chosen material as last cooked; null before the first, without a film, and if it is not drawn.
+    std::shared_ptr<const thin_film::CookedFilm> film() const;
 
     /// The grating that the efficiency pane compares the material with: a scalar profile with the opened table, a table
     /// with the last scalar profile. nullopt: none.
@@ -108,7 +111,7 @@ class OpenDocument {
         Document document;
     };
     using Opening = Computed<std::shared_ptr<const std::filesystem::path>, std::shared_ptr<OpenedScene>>;
-    using Cooking = Computed<std::shared_ptr<const MaterialSource>, std::shared_ptr<const CookedGrating>>;
+    using Cooking = Computed<std::shared_ptr<const MaterialSource>, std::shared_ptr<const CookedSurface>>;
 
     void replace(Document document, std::shared_ptr<const PreviewObject> object);
     void replace(OpenedScene opened);
@@ -116,7 +119,9 @@ class OpenDocument {
     void start_opening();
     bool take_opened(const Opening::Change& change);
     void cook(Cooking& cooking, const std::shared_ptr<const MaterialSource>& source);
+    void use_picture(std::vector<std::byte> picture, const std::string& name);
     void set_groove_picture(std::vector<std::byte> picture, const std::string& name);
+    void set_texture(const Field& field, std::vector<std::byte> picture, const std::string& name);
 
     std::filesystem::path presets_;
     std::optional<std::filesystem::path> demo_copy_;  ///< removed at the end
@@ -124,13 +129,13 @@ class OpenDocument {
     Document document_;
     std::size_t replacements_ = 0;
     std::shared_ptr<const PreviewObject> object_;
-    std::shared_ptr<GratingCook> cook_;
+    std::shared_ptr<SurfaceCook> cook_;
     std::shared_ptr<const std::filesystem::path> opening_path_;
     std::optional<diffraction::EfficiencyTable> opened_table_;
     std::optional<diffraction::Grating> last_scalar_;  ///< the last cooked grating with a scalar profile
 
     // The destructors wait for the work, so these are last.
-    SceneGratings scene_gratings_;
+    SceneSurfaces scene_surfaces_;
     Opening opening_;
     Cooking cooked_;
     Cooking saved_;

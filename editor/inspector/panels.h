@@ -16,22 +16,22 @@
 
 namespace rowland::inspector {
 
-/// A window with the fields of a thin film, its reflectance over wavelength and angle, and its colours over thickness
-/// by the exact sum, by the cooked table and by glTF's formula.
+/// The physics of a film as plots: its reflectance over wavelength and angle, and its colours over thickness, by the
+/// exact sum, by the cooked table and by glTF's formula.
 class FilmPanel {
  public:
-    /// Between Ui::begin_frame() and Ui::draw(), if it is open.
+    /// Call it every frame.
+    void update(const OpenDocument& opened);
+    /// Into the current ImGui window.
     void draw(ControlMap& controls);
     /// Whether curves are being computed.
     bool busy() const { return curves_.busy(); }
 
-    bool open = false;
-
  private:
-    void draw_fields(ControlMap& controls);
     void draw_curves(const FilmCurves& curves, ControlMap& controls) const;
 
-    FilmInputs inputs_;
+    std::shared_ptr<const thin_film::CookedFilm> film_;  ///< null: none
+    double angle_deg_ = 0.0;
     Computed<FilmInputs, FilmCurves> curves_;
 };
 
@@ -49,7 +49,7 @@ class MaterialPanel {
     std::map<std::string, std::string> texts_;  ///< that are being typed, by the field's pointer
 };
 
-/// The materials of an open scene: which one is edited, its meshes, and its grating as a whole.
+/// The materials of an open scene: which one is edited, its meshes, and its grating or film as a whole.
 class ScenePanel {
  public:
     /// Into the current ImGui window. Empty unless a scene is open or being opened.
@@ -116,7 +116,8 @@ class PreviewPanel {
     bool comparing = false;  ///< the saved version is shown to the left of the dividing line
 
  private:
-    void draw_tools(bool has_scene, bool has_saved, LightChoice& light, View& view, ControlMap& controls);
+    void draw_tools(bool has_scene, bool has_grating, bool has_saved, LightChoice& light, View& view,
+                    ControlMap& controls);
     void draw_picture(const View& view, const ImVec2& corner, const ImVec2& size) const;
     void draw_saved(const View& view, const ImVec2& corner, const ImVec2& end) const;
     void draw_lamp(const Stage& stage, const ImVec2& corner, const ImVec2& size, ControlMap& controls) const;
@@ -134,8 +135,8 @@ class PreviewPanel {
     bool lamp_behind_ = false;  ///< at the start of the drag
 };
 
-/// The cost and the error of the material, and of the other representations it could have: a plot of error over price,
-/// with a slider along the unbeaten choices.
+/// The cost and the error of the material, and of the other representations that a grating could have: a plot of error
+/// over price, with a slider along the unbeaten choices.
 class PricePanel {
  public:
     /// `frame_ms`: the median frame time here; 0: unknown.

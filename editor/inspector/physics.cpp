@@ -92,7 +92,8 @@ diffraction::PointShader harmonics_shader(const diffraction::Material& material,
 }
 
 constexpr int kAngles = 86;        ///< 0 to 85 degrees
-constexpr int kThicknesses = 161;  ///< every 5 nm
+constexpr int kThicknesses = 161;  ///< every 5 nm, of films that are not thicker than the next
+constexpr double kThickness_nm = 800.0;
 
 double cosine_of(double angle_deg) {
     return std::cos(angle_deg * std::numbers::pi / 180.0);
@@ -103,9 +104,10 @@ class FilmModels {
  public:
     explicit FilmModels(const FilmInputs& inputs)
         : inputs_(inputs),
-          colour_(inputs.film(), colour::LightSpectra{}),
-          base_f0_(thin_film::normal_colour(inputs.film().base)) {
-        if (inputs.roughness > 0.0) rough_.emplace(colour_, 0.0, kThickestFilm_nm);
+          thickest_nm_(std::max(kThickness_nm, inputs.film.layers.front().thickness_nm)),
+          colour_(inputs.film, colour::LightSpectra(colour::illuminant(inputs.illuminant))),
+          base_f0_(thin_film::normal_colour(inputs.film.base)) {
+        if (inputs.roughness > 0.0) rough_.emplace(colour_, 0.0, thickest_nm_);
     }
 
     /// At one angle, for several thicknesses.
@@ -123,18 +125,21 @@ class FilmModels {
         return result;
     }
     glm::dvec3 formula(double cosine, double thickness_nm) const {
-        return colour::rec709_to_xyz() * thin_film::gltf_formula(inputs_.ior, thickness_nm, base_f0_, cosine);
+        return colour::rec709_to_xyz() *
+               thin_film::gltf_formula(colour_.film().layers.front().index.real(), thickness_nm, base_f0_, cosine);
     }
     thin_film::FilmTable table() const {
         const thin_film::TableRange range{.thinnest_nm = 0.0,
-                                          .thickest_nm = kThickestFilm_nm,
+                                          .thickest_nm = thickest_nm_,
                                           .smoothest = inputs_.roughness,
                                           .roughest = inputs_.roughness};
         return thin_film::bake_table(colour_, range, thin_film::table_size(range));
     }
+    double thickest_nm() const { return thickest_nm_; }
 
  private:
     FilmInputs inputs_;
+    double thickest_nm_;
     thin_film::FilmColour colour_;
     glm::dvec3 base_f0_;
     std::optional<thin_film::RoughFilm> rough_;
@@ -142,8 +147,10 @@ class FilmModels {
 
 FilmCurves without_table(const FilmInputs& inputs, const FilmModels& models) {
     FilmCurves curves;
-    const thin_film::Film film = inputs.film();
+    const thin_film::Film& film = inputs.film;
     const thin_film::Film bare{.layers = {}, .base = film.base};
+    const double thickness_nm = film.layers.front().thickness_nm;
+    const bool has_formula = film.layers.size() == 1;
     const double cosine = cosine_of(inputs.angle_deg);
     for (int nm = colour::kVisibleMin; nm <= colour::kVisibleMax; ++nm) {
         curves.spectrum.emplace_back(nm, thin_film::reflectance(film, nm, cosine));
@@ -152,15 +159,16 @@ FilmCurves without_table(const FilmInputs& inputs, const FilmModels& models) {
     for (int i = 0; i < kAngles; ++i) {
         const double at = cosine_of(i);
         curves.angles_deg.push_back(i);
-        curves.over_angle.exact.push_back(models.exact(at, {inputs.thickness_nm}).front());
-        curves.over_angle.formula.push_back(models.formula(at, inputs.thickness_nm));
+        curves.over_angle.exact.push_back(models.exact(at, {thickness_nm}).front());
+        if (has_formula) curves.over_angle.formula.push_back(models.formula(at, thickness_nm));
     }
     for (int i = 0; i < kThicknesses; ++i) {
-        curves.thicknesses_nm.push_back(kThickestFilm_nm * i / (kThicknesses - 1));
-        curves.over_thickness.formula.push_back(models.formula(cosine, curves.thicknesses_nm.back()));
+        curves.thicknesses_nm.push_back(models.thickest_nm() * i / (kThicknesses - 1));
+        if (has_formula) curves.over_thickness.formula.push_back(models.formula(cosine, curves.thicknesses_nm.back()));
     }
     curves.over_thickness.exact = models.exact(cosine, curves.thicknesses_nm);
-    curves.formula_error = diffraction::relative_rms(curves.over_thickness.formula, curves.over_thickness.exact);
+    if (has_formula)
+        curves.formula_error = diffraction::relative_rms(curves.over_thickness.formula, curves.over_thickness.exact);
     return curves;
 }
 
@@ -356,11 +364,6 @@ ViewSweep view_sweep(const diffraction::CookedMaterial& cooked, const lighting::
     return sweep;
 }
 
-thin_film::Film FilmInputs::film() const {
-    const thin_film::Base base = metal ? thin_film::Base(*metal) : thin_film::Base(std::complex(base_ior, base_k));
-    return {.layers = {{.index = ior, .thickness_nm = thickness_nm}}, .base = base};
-}
-
 std::optional<FilmCurves> film_curves(const FilmInputs& inputs, const std::stop_token& stop,
                                       const std::function<void(FilmCurves)>& publish) {
     const FilmModels models(inputs);
@@ -369,9 +372,9 @@ std::optional<FilmCurves> film_curves(const FilmInputs& inputs, const std::stop_
     if (stop.stop_requested()) return std::nullopt;
     const thin_film::FilmTable table = models.table();
     const glm::dvec3 white(1.0);
+    const double thickness_nm = inputs.film.layers.front().thickness_nm;
     for (const double angle_deg : curves.angles_deg)
-        curves.over_angle.table.push_back(table.at(cosine_of(angle_deg), inputs.thickness_nm, inputs.roughness) *
-                                          white);
+        curves.over_angle.table.push_back(table.at(cosine_of(angle_deg), thickness_nm, inputs.roughness) * white);
     for (const double nm : curves.thicknesses_nm)
         curves.over_thickness.table.push_back(table.at(cosine_of(inputs.angle_deg), nm, inputs.roughness) * white);
     curves.table_error = diffraction::relative_rms(curves.over_thickness.table, curves.over_thickness.exact);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <complex>
 #include <cstddef>
 #include <functional>
 #include <glm/vec2.hpp>
@@ -137,21 +138,16 @@ ViewSweep view_sweep(const diffraction::CookedMaterial& cooked, const lighting::
 
 /// A film and the angle of view.
 struct FilmInputs {
-    double ior = 1.33;
-    double thickness_nm = 400.0;  ///< 0 to kThickestFilm_nm
-    std::optional<colour::Metal> metal = {};
-    double base_ior = 1.0;  ///< of a base without `metal`
-    double base_k = 0.0;
-    double roughness = 0.0;  ///< perceptual
-    double angle_deg = 0.0;  ///< of the view
-
-    thin_film::Film film() const;
+    thin_film::Film film{.layers = {{.index = 1.33, .thickness_nm = 400.0}}, .base = std::complex<double>(1.0, 0.0)};
+    double roughness = 0.0;          ///< perceptual
+    double angle_deg = 0.0;          ///< of the view
+    std::string illuminant = "D65";  ///< a built-in one
 
     friend bool operator==(const FilmInputs&, const FilmInputs&) = default;
 };
 
 /// XYZ of reflected white light: by the exact sum, averaged over the lobe of a rough surface; by the table that is
-/// drawn; by the formula that glTF recommends.
+/// drawn; by the formula that glTF recommends, which knows films of one layer: empty for others.
 struct FilmColours {
     std::vector<glm::dvec3> exact;
     std::vector<glm::dvec3> table;
@@ -163,14 +159,12 @@ struct FilmCurves {
     std::vector<glm::dvec2> bare;      ///< likewise without the film
     std::vector<double> angles_deg;
     FilmColours over_angle;
-    std::vector<double> thicknesses_nm;
-    FilmColours over_thickness;  ///< at the angle
-    bool complete = false;       ///< the table is baked; its colours are empty before
-    double table_error = 0.0;    ///< over_thickness against the exact sum, relative RMS
+    std::vector<double> thicknesses_nm;  ///< of the outermost layer: 0 to 800, or its own if it is thicker
+    FilmColours over_thickness;          ///< at the angle
+    bool complete = false;               ///< the table is baked; its colours are empty before
+    double table_error = 0.0;            ///< over_thickness against the exact sum, relative RMS
     double formula_error = 0.0;
 };
-
-inline constexpr double kThickestFilm_nm = 800.0;
 
 /// Takes a second or two. Publishes the curves without the table first. nullopt if it was stopped.
 std::optional<FilmCurves> film_curves(const FilmInputs& inputs, const std::stop_token& stop,

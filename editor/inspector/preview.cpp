@@ -19,6 +19,7 @@
 #include "modules/diffraction/runtime/glare_pattern.h"
 #include "modules/diffraction/runtime/vertex_light.h"
 #include "modules/material_types.h"
+#include "modules/thin_film/runtime/film_surface.h"
 
 namespace rowland::inspector {
 
@@ -98,15 +99,16 @@ void GrooveOverlay::begin(glm::ivec2 size, const glm::mat4& world_to_clip) {
     program_.set("step_length", kStrokeStep);
 }
 
-void GrooveOverlay::draw(const render::GpuMesh& mesh, const glm::mat4& object_to_world, const CookedGrating* grating) {
+void GrooveOverlay::draw(const render::GpuMesh& mesh, const glm::mat4& object_to_world, const CookedSurface* grating) {
     const glm::mat3 linear(object_to_world);
     const float determinant = glm::determinant(linear);
     if (determinant == 0.0F) return;
     program_.set("object_to_world", object_to_world);
     program_.set("normal_to_world", glm::transpose(glm::inverse(linear)));
     program_.set("mirroring", determinant < 0.0F ? -1.0F : 1.0F);
-    program_.set("chosen", grating != nullptr ? 1 : 0);
-    if (grating != nullptr) {
+    const bool chosen = grating != nullptr && grating->material != nullptr;
+    program_.set("chosen", chosen ? 1 : 0);
+    if (chosen) {
         program_.set("groove_rotation", static_cast<float>(grating->groove_rotation));
         program_.set("mapped", grating->grooves ? 1 : 0);
         if (grating->grooves) {
@@ -133,21 +135,21 @@ Preview::Side::Side(const post::OcioConfig& config, bool still) : picture(config
     world.add(root, scene::Transform{});
 }
 
-void Preview::Side::show(const PreviewInputs& inputs, const Gratings& wanted) {
+void Preview::Side::show(const PreviewInputs& inputs, const CookedSurfaces& wanted) {
     if (std::exchange(light, inputs.light) != inputs.light) picture.set_probe(light->probe);
     if (std::exchange(object, inputs.object) != inputs.object) {
         for (const ecs::Entity entity : all) world.destroy(entity);
         all.clear();
         drawn.clear();
-        gratings.clear();
+        surfaces.clear();
         if (object->scene)
             add_scene();
         else
             add_shape();
     }
-    gratings.resize(wanted.size());
+    surfaces.resize(wanted.size());
     for (std::size_t i = 0; i < wanted.size(); ++i)
-        if (std::exchange(gratings[i], wanted[i]) != wanted[i]) show_grating(i);
+        if (std::exchange(surfaces[i], wanted[i]) != wanted[i]) show_surface(i);
     set_glare(inputs.glare_of && *inputs.glare_of < wanted.size() ? wanted[*inputs.glare_of] : nullptr);
 }
 
@@ -186,34 +188,51 @@ void Preview::Side::set_own_material(const Drawn& part) {
                                : render::make_material(nullptr, none));
 }
 
-void Preview::Side::show_grating(std::size_t material) {
-    const std::shared_ptr<const CookedGrating>& grating = gratings[material];
-    const auto uploaded =
-        grating ? diffraction::make_gpu_material(*grating->material, picture.xyz_to_working()) : nullptr;
+void Preview::Side::show_surface(std::size_t material) {
+    std::vector<ecs::Entity> parts;
     for (const Drawn& part : drawn) {
         if (part.material != material) continue;
         set_own_material(part);
-        if (uploaded == nullptr) {
-            world.remove<diffraction::DiffractionSurface>(part.entity);
-            continue;
-        }
-        diffraction::add_surface(world, part.entity,
-                                 {.material = uploaded,
-                                  .groove_rotation = static_cast<float>(grating->groove_rotation),
-                                  .grooves = grating->grooves},
-                                 grating->has_base);
-        if (!object->scene) world.get<render::StandardMaterial>(part.entity).double_sided = true;
+        world.remove<diffraction::DiffractionSurface>(part.entity);
+        world.remove<thin_film::FilmSurface>(part.entity);
+        parts.push_back(part.entity);
     }
+    if (surfaces[material]) add_surface(*surfaces[material], parts);
 }
 
-void Preview::Side::set_glare(std::shared_ptr<const CookedGrating> grating) {
-    if (std::exchange(sheet, grating) == grating) return;
+void Preview::Side::add_surface(const CookedSurface& surface, const std::vector<ecs::Entity>& parts) {
+    if (surface.material) {
+        const auto uploaded = diffraction::make_gpu_material(*surface.material, picture.xyz_to_working());
+        for (const ecs::Entity part : parts)
+            diffraction::add_surface(world, part,
+                                     {.material = uploaded,
+                                      .groove_rotation = static_cast<float>(surface.groove_rotation),
+                                      .grooves = surface.grooves},
+                                     surface.has_base);
+    } else if (surface.film->in_scene && surface.film->cooked) {
+        const thin_film::CookedFilm& cooked = *surface.film->cooked;
+        const auto uploaded = std::make_shared<const thin_film::GpuFilm>(cooked.table, picture.xyz_to_working(),
+                                                                         cooked.material.illuminant.name);
+        render::SurfaceTextures textures(*surface.film->textures);
+        for (const ecs::Entity part : parts)
+            thin_film::add_film(world, part, *surface.film->in_scene, uploaded, textures, object->scene->file.string(),
+                                thin_film::kIridescenceExtension);
+    } else if (surface.film->cooked) {
+        for (const ecs::Entity part : parts)
+            thin_film::add_film(world, part, *surface.film->cooked, picture.xyz_to_working());
+    }
+    if (!object->scene)
+        for (const ecs::Entity part : parts) world.get<render::StandardMaterial>(part).double_sided = true;
+}
+
+void Preview::Side::set_glare(std::shared_ptr<const CookedSurface> surface) {
+    if (std::exchange(sheet, surface) == surface) return;
     auto& glare = picture.post_settings().glare;
     glare.reset();
-    if (grating)
+    if (surface && surface->material)
         glare = post::GlareSettings{.pattern = std::make_shared<post::GlarePattern>(diffraction::glare_pattern(
-                                        grating->material->material.grating, picture.xyz_to_working())),
-                                    .angle = static_cast<float>(grating->groove_rotation)};
+                                        surface->material->material.grating, picture.xyz_to_working())),
+                                    .angle = static_cast<float>(surface->groove_rotation)};
 }
 
 void Preview::Side::draw(const PreviewInputs& inputs, float seconds) {
@@ -241,7 +260,7 @@ void Preview::show(const PreviewInputs& inputs) {
     inputs_ = inputs;
     unchanged_ = 0;
     if (inputs.saved && !saved_) saved_.emplace(config_, still_);
-    now_.show(inputs, inputs.gratings);
+    now_.show(inputs, inputs.surfaces);
     if (inputs.saved) saved_->show(inputs, *inputs.saved);
 }
 
@@ -280,12 +299,12 @@ void Preview::draw_grooves() {
     if (!overlay_) overlay_.emplace();
     const scene::Camera camera = rotated_camera(inputs_);
     overlay_->begin(inputs_.size, camera.projection(aspect()) * camera.view());
-    const Gratings& gratings = now_.gratings;
+    const CookedSurfaces& surfaces = now_.surfaces;
     for (const Drawn& part : now_.drawn) {
-        const bool chosen = part.material && part.material == inputs_.grooves_of && *part.material < gratings.size();
+        const bool chosen = part.material && part.material == inputs_.grooves_of && *part.material < surfaces.size();
         overlay_->draw(*now_.world.get<render::MeshInstance>(part.entity).gpu,
                        now_.world.get<scene::WorldMatrix>(part.entity).matrix,
-                       chosen ? gratings[*part.material].get() : nullptr);
+                       chosen ? surfaces[*part.material].get() : nullptr);
     }
 }
 
@@ -323,16 +342,16 @@ std::optional<PickedSurface> Preview::pick(const glm::vec2& at) {
 }
 
 diffraction::GrooveLayout Preview::layout_of(const Drawn& part) {
-    const Gratings& gratings = now_.gratings;
-    const bool grooves = part.material && *part.material < gratings.size() && gratings[*part.material] &&
-                         gratings[*part.material]->grooves;
+    const CookedSurfaces& surfaces = now_.surfaces;
+    const bool grooves = part.material && *part.material < surfaces.size() && surfaces[*part.material] &&
+                         surfaces[*part.material]->grooves;
     return diffraction::groove_layout(*now_.world.get<render::MeshInstance>(part.entity).mesh, false, grooves);
 }
 
 void Preview::set_grating_vector(PickedSurface& surface) const {
     double rotation = 0.0;
-    if (surface.material && *surface.material < now_.gratings.size() && now_.gratings[*surface.material]) {
-        const CookedGrating& grating = *now_.gratings[*surface.material];
+    if (surface.material && *surface.material < now_.surfaces.size() && now_.surfaces[*surface.material]) {
+        const CookedSurface& grating = *now_.surfaces[*surface.material];
         if (grating.grooves)
             surface.map_rotation =
                 grating.grooves->rotation(grating.grooves->uv_set() == 1 ? surface.point.uv1 : surface.point.uv);

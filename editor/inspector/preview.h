@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "editor/inspector/cooked_gratings.h"
+#include "editor/inspector/cooked_surfaces.h"
 #include "editor/inspector/light.h"
 #include "editor/inspector/pick_point.h"
 #include "editor/inspector/preview_object.h"
@@ -31,8 +31,8 @@ class GrooveOverlay {
 
     /// Clears the picture.
     void begin(glm::ivec2 size, const glm::mat4& world_to_clip);
-    /// Adds a mesh with the grooves of `grating`; null: the mesh only hides others.
-    void draw(const render::GpuMesh& mesh, const glm::mat4& object_to_world, const CookedGrating* grating);
+    /// Adds a mesh with the grooves of `grating`; null, or a film: the mesh only hides others.
+    void draw(const render::GpuMesh& mesh, const glm::mat4& object_to_world, const CookedSurface* grating);
 
     const gpu::Framebuffer& picture() const { return *target_; }
 
@@ -60,8 +60,8 @@ struct PreviewInputs {
     Stage stage;
     std::shared_ptr<const PreviewObject> object;
     std::shared_ptr<const InspectedLight> light;
-    Gratings gratings;                      ///< by material
-    std::optional<Gratings> saved;          ///< drawn into a second picture; nullopt: not drawn
+    CookedSurfaces surfaces;                ///< by material
+    std::optional<CookedSurfaces> saved;    ///< drawn into a second picture; nullopt: not drawn
     std::optional<std::size_t> grooves_of;  ///< the material whose grooves are drawn as strokes; nullopt: none
     std::optional<std::size_t> glare_of;    ///< the material that is held before the camera as well; nullopt: none
 
@@ -74,7 +74,7 @@ class Preview {
     /// `still`, for captures: maps are complete in the second frame; otherwise they fill over many frames.
     Preview(const post::OcioConfig& config, bool still) : config_(config), still_(still), now_(config, still) {}
 
-    /// Sets the inputs; call it every frame. Object and light must exist, and the grating of a shape. Uploads changed
+    /// Sets the inputs; call it every frame. Object and light must exist, and the surface of a shape. Uploads changed
     /// inputs. Throws Error if the GPU refuses the light or a material; the upload is not repeated, and the last one
     /// stays in the picture.
     void show(const PreviewInputs& inputs);
@@ -117,14 +117,15 @@ class Preview {
     /// A world with one object, and its renderer.
     struct Side {
         Side(const post::OcioConfig& config, bool still);
-        void show(const PreviewInputs& inputs, const Gratings& wanted);
+        void show(const PreviewInputs& inputs, const CookedSurfaces& wanted);
         void draw(const PreviewInputs& inputs, float seconds);
         ecs::Entity add(ecs::Entity parent, const scene::Transform& local);
         void add_shape();
         void add_scene();
         void set_own_material(const Drawn& part);
-        void show_grating(std::size_t material);
-        void set_glare(std::shared_ptr<const CookedGrating> grating);
+        void show_surface(std::size_t material);
+        void add_surface(const CookedSurface& surface, const std::vector<ecs::Entity>& parts);
+        void set_glare(std::shared_ptr<const CookedSurface> surface);
 
         view::Picture picture;
         ecs::World world;
@@ -134,8 +135,8 @@ class Preview {
         ecs::Entity lamp;
         std::shared_ptr<const PreviewObject> object;
         std::shared_ptr<const InspectedLight> light;
-        Gratings gratings;
-        std::shared_ptr<const CookedGrating> sheet;  ///< before the camera; null: none
+        CookedSurfaces surfaces;
+        std::shared_ptr<const CookedSurface> sheet;  ///< before the camera; null: none
     };
 
     float aspect() const;

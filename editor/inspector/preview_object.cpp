@@ -16,6 +16,7 @@
 #include "engine/scene/gltf_import.h"
 #include "engine/scene/mesh_recipe.h"
 #include "modules/diffraction/asset/gltf_extension.h"
+#include "modules/thin_film/asset/gltf_iridescence.h"
 
 namespace rowland::inspector {
 
@@ -135,7 +136,8 @@ float fitting_scale(const scene::Bounds& box) {
 }
 
 std::shared_ptr<const SceneObject> load_scene_object(const std::filesystem::path& file) {
-    const std::array<std::string, 1> handled = {diffraction::kGltfExtension};
+    const std::array<std::string, 3> handled = {diffraction::kGltfExtension, thin_film::kIridescenceExtension,
+                                                thin_film::kIorExtension};
     SceneObject object{.file = file,
                        .imported = scene::load_gltf(file, handled),
                        .meshes = {},

@@ -51,7 +51,8 @@ struct SceneMaterial {
     scene::TangentSource tangents = scene::TangentSource::File;  ///< the poorest of those meshes
 };
 
-/// A scene file in its rest pose, without its gratings, lights and cameras. Each primitive of the file is a mesh.
+/// A scene file in its rest pose, without its gratings, films, lights and cameras. Each primitive of the file is a
+/// mesh.
 struct SceneObject {
     std::filesystem::path file;
     scene::ImportedScene imported;  ///< without meshes

@@ -180,7 +180,8 @@ void PreviewPanel::frame(View& view) {
         camera_ = scene::OrbitCamera(scene::framed(camera_.camera(), glm::vec3(*sphere), sphere->w), kOrbit);
 }
 
-void PreviewPanel::draw_tools(bool has_scene, bool has_saved, LightChoice& light, View& view, ControlMap& controls) {
+void PreviewPanel::draw_tools(bool has_scene, bool has_grating, bool has_saved, LightChoice& light, View& view,
+                              ControlMap& controls) {
     draw_shape_picker(view, has_scene, controls);
     continue_line(9.0F);
     draw_light_picker(light, controls);
@@ -191,11 +192,13 @@ void PreviewPanel::draw_tools(bool has_scene, bool has_saved, LightChoice& light
     continue_line(4.5F);
     ImGui::Checkbox("Lamp", &view.stage.lamp);
     controls.mark("lamp");
-    continue_line(7.5F);
-    ImGui::Checkbox("Look through", &view.looks_through);
-    controls.mark("look through");
-    if (ImGui::IsItemHovered())
-        ImGui::SetTooltip("Hold the material before the camera: its glare around bright lights");
+    if (has_grating) {
+        continue_line(7.5F);
+        ImGui::Checkbox("Look through", &view.looks_through);
+        controls.mark("look through");
+        if (ImGui::IsItemHovered())
+            ImGui::SetTooltip("Hold the material before the camera: its glare around bright lights");
+    }
     if (has_saved) {
         continue_line(4.0F);
         ImGui::Checkbox("A/B", &comparing);
@@ -213,7 +216,7 @@ void PreviewPanel::draw(OpenDocument& opened, LightChoice& light, View& view, co
                         float pixels_per_unit, float seconds, ControlMap& controls) {
     has_saved_ = opened.saved() != nullptr;
     if (std::exchange(scene_, opened.scene()) != opened.scene()) camera_ = scene::OrbitCamera(opening_camera(), kOrbit);
-    draw_tools(opened.scene() != nullptr, has_saved_, light, view, controls);
+    draw_tools(opened.scene() != nullptr, opened.document().has_grating(), has_saved_, light, view, controls);
     const ImVec2 corner = ImGui::GetCursorScreenPos();
     const ImVec2 size = ImGui::GetContentRegionAvail();
     if (size.x < 8.0F || size.y < 8.0F) return;

@@ -45,6 +45,10 @@ std::string byte_count(std::size_t bytes) {
                                   : fmt::format("{:.1f} MiB", size / 1024.0 / 1024.0);
 }
 
+void draw_frame_time(double frame_ms) {
+    if (frame_ms > 0.0) draw_row("Frame time", fmt::format("{:.1f} ms, the median", frame_ms));
+}
+
 void draw_numbers(const PriceList& list, bool is_current, const OpenDocument& opened, View& view, double frame_ms,
                   ControlMap& controls) {
     const DrawnAs* drawn = view.drawn_as();
@@ -70,7 +74,7 @@ void draw_numbers(const PriceList& list, bool is_current, const OpenDocument& op
              fmt::format("{} fetches, {} multiply-adds", cost.fetches_per_vertex, cost.multiply_adds_per_vertex));
     draw_row("Per light",
              fmt::format("{} fetches, {} multiply-adds", cost.fetches_per_light, cost.multiply_adds_per_light));
-    if (frame_ms > 0.0) draw_row("Frame time", fmt::format("{:.1f} ms, the median", frame_ms));
+    draw_frame_time(frame_ms);
 }
 
 void draw_plot(const PriceList& list, float height) {
@@ -143,10 +147,25 @@ void draw_slider(Measurement& measurement, const Document& document, const Price
     ImGui::PopTextWrapPos();
 }
 
+void draw_film(const thin_film::FilmTable& table, double frame_ms, ControlMap& controls) {
+    draw_row("Representation", "a table over angle, thickness and roughness");
+    draw_row("Nodes", fmt::format("{} × {} × {}", table.columns, table.rows, table.layers));
+    draw_row("Tables", fmt::format("{} ({} B)", byte_count(table.bytes()), table.bytes()));
+    const std::string error =
+        fmt::format("{:.2g} % RMS, {:.2g} % at most", 100.0 * table.error.rms, 100.0 * table.error.largest);
+    draw_row("Measured error", error + ", between the table's nodes");
+    draw_frame_time(frame_ms);
+    controls.note("film's error", error);
+}
+
 }  // namespace
 
 void PricePanel::draw(Measurement& measurement, const OpenDocument& opened, View& view, double frame_ms,
                       ControlMap& controls) {
+    if (opened.document().has_film()) {
+        if (const auto film = opened.film()) draw_film(film->table, frame_ms, controls);
+        return;
+    }
     const PriceList list = measurement.prices();
     const bool is_current = measurement.prices_are_current();
     const float font = ImGui::GetFontSize();

@@ -38,8 +38,11 @@ void Session::open(const std::filesystem::path& path) {
 
 void Session::open_preset(const std::string& name) {
     if (!opened.open_preset(name) || opened.document().is_scene()) return;
-    const bool lattice = opened.document().material().grating.lattice.has_value();
-    view.choose_shape(lattice ? PreviewShape::Card : shape_of_preset(name));
+    const Document& document = opened.document();
+    const bool lattice = document.has_grating() && document.material().grating.lattice.has_value();
+    view.choose_shape(document.has_film() ? PreviewShape::Sphere
+                      : lattice           ? PreviewShape::Card
+                                          : shape_of_preset(name));
 }
 
 void Session::open_in_demo() {

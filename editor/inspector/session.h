@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <string>
 
-#include "editor/inspector/cooked_gratings.h"
+#include "editor/inspector/cooked_surfaces.h"
 #include "editor/inspector/document.h"
 #include "editor/inspector/light.h"
 #include "editor/inspector/measurement.h"

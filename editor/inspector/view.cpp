@@ -61,8 +61,8 @@ void View::pick(const glm::vec2& at) {
 void View::draw(glm::ivec2 size, const scene::Camera& camera, bool with_saved, float seconds) {
     if (!ready() || size.x < 1 || size.y < 1) return;
     const std::size_t chosen = object_->scene ? document_.document().chosen() : 0;
-    const auto gratings = [&](bool as_saved) {
-        return object_->scene ? document_.gratings(as_saved) : Gratings{document_.grating(as_saved)};
+    const auto surfaces = [&](bool as_saved) {
+        return object_->scene ? document_.surfaces(as_saved) : CookedSurfaces{document_.surface(as_saved)};
     };
     messages_.attempt([&] {
         preview_.show({.size = size,
@@ -71,14 +71,14 @@ void View::draw(glm::ivec2 size, const scene::Camera& camera, bool with_saved, f
                        .stage = stage,
                        .object = object_,
                        .light = light_.current(),
-                       .gratings = gratings(false),
-                       .saved = with_saved && document_.saved() ? std::optional(gratings(true)) : std::nullopt,
+                       .surfaces = surfaces(false),
+                       .saved = with_saved && document_.saved() ? std::optional(surfaces(true)) : std::nullopt,
                        .grooves_of = shows_grooves ? std::optional(chosen) : std::nullopt,
                        .glare_of = looks_through ? std::optional(chosen) : std::nullopt});
     });
     preview_.draw(seconds);
     update_point();
-    const PixelInputs inputs{document_.cooked(), light_.current(), point_, stage};
+    const PixelInputs inputs{document_.surface(false), light_.current(), point_, stage};
     if (picked_ && std::exchange(pixel_inputs_, inputs) != inputs) read_picked_pixel();
 }
 
@@ -131,8 +131,8 @@ diffraction::SurfaceShape View::surface_shape() {
 }
 
 const DrawnAs* View::drawn_as() {
-    const auto grating = document_.grating(false);
-    if (!grating) return nullptr;
+    const auto grating = document_.surface(false);
+    if (!grating || !grating->material) return nullptr;
     const DrawnInputs inputs{object_, document_.document().chosen(), grating};
     if (std::exchange(drawn_inputs_, inputs) == inputs) return &drawn_as_;
     drawn_as_ = {};
@@ -155,8 +155,8 @@ void View::update_point() {
     }
     if (!surface_ && !std::exchange(searched_, true)) surface_ = find_surface();
     if (!surface_) return;
-    const Gratings gratings = document_.gratings(false);
-    const std::shared_ptr<const CookedGrating>& grating = gratings.at(document_.document().chosen());
+    const CookedSurfaces surfaces = document_.surfaces(false);
+    const std::shared_ptr<const CookedSurface>& grating = surfaces.at(document_.document().chosen());
     if (!grating) return;
     const diffraction::ShadingPoint point =
         with_grating_rotated(surface_->point, grating->groove_rotation + surface_->map_rotation);

@@ -54,7 +54,7 @@ class View {
     /// every frame, after the document's update().
     void update();
     /// Whether there are a light and a material, or a scene, to draw.
-    bool ready() const { return light_.current() && (document_.cooked() || document_.document().is_scene()); }
+    bool ready() const { return light_.current() && (document_.surface(false) || document_.document().is_scene()); }
     /// Draws the preview if it is ready and the picture may have changed. `with_saved`: also the saved version.
     void draw(glm::ivec2 size, const scene::Camera& camera, bool with_saved, float seconds);
     /// Whether the next picture may differ from the last for the same inputs.
@@ -79,15 +79,15 @@ class View {
     }
     /// Curved if one of the meshes with the chosen material is.
     diffraction::SurfaceShape surface_shape();
-    /// Null without a cooked material.
+    /// Null without a cooked grating.
     const DrawnAs* drawn_as();
 
  private:
-    using PixelInputs =
-        std::tuple<OpenDocument::Cooked, LightChoice::Light, std::shared_ptr<const diffraction::ShadingPoint>, Stage>;
+    using PixelInputs = std::tuple<std::shared_ptr<const CookedSurface>, LightChoice::Light,
+                                   std::shared_ptr<const diffraction::ShadingPoint>, Stage>;
 
     using DrawnInputs =
-        std::tuple<std::shared_ptr<const PreviewObject>, std::size_t, std::shared_ptr<const CookedGrating>>;
+        std::tuple<std::shared_ptr<const PreviewObject>, std::size_t, std::shared_ptr<const CookedSurface>>;
 
     void forget_point();
     std::set<diffraction::GrooveLayout> layouts(bool has_groove_texture) const;

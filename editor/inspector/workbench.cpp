@@ -119,10 +119,10 @@ void draw_help(std::span<const Command> commands, bool& open, ControlMap& contro
 
 void Workbench::draw(const platform::InputState& input, bool keys_are_ours, const WorkbenchFrame& frame) {
     const std::vector<Command> present = commands();
+    film_.update(session_.opened);
     if (keys_are_ours) run_pressed(present, input);
     draw_menu_bar(present, controls_);
     draw_tiles(input, frame);
-    film_.draw(controls_);
     if (help_) draw_help(present, help_, controls_);
     const float font = ImGui::GetFontSize();
     if (frame.in_window)
@@ -192,7 +192,6 @@ std::vector<Command> Workbench::commands() {
         {"View", "Show grooves", "G", Key::G, [this] { session_.view.shows_grooves = !session_.view.shows_grooves; },
          true, session_.view.shows_grooves},
         {"View", "Frame the selection", "F", Key::F, [this] { preview_.frame(session_.view); }},
-        {"View", "Thin film", "F7", Key::F7, [this] { film_.open = !film_.open; }, true, film_.open},
         {"View", "Screenshot", "F12", Key::F12, [this] { screenshot_ = true; }},
         {"View", "Larger text", "Ctrl+=", Key::Equal, scale_by(0.1F)},
         {"View", "Smaller text", "Ctrl+-", Key::Minus, scale_by(-0.1F)},
@@ -246,17 +245,22 @@ void Workbench::draw_tiles(const platform::InputState& input, const WorkbenchFra
 
     if (begin_tile("Material", {0.0F, top}, {left, height})) {
         scene_.draw(session_.opened, session_.view, controls_);
-        if (session_.opened.document().has_grating()) material_.draw(session_.opened.document(), controls_);
+        if (session_.opened.document().accepted()) material_.draw(session_.opened.document(), controls_);
     }
     ImGui::End();
-    const auto draw_if_grating = [this](const auto& draw) {
-        session_.opened.document().has_grating() ? draw() : ImGui::TextDisabled("The chosen material has no grating.");
+    const auto draw_if_any = [this](const auto& draw) {
+        session_.opened.document().accepted() ? draw()
+                                              : ImGui::TextDisabled("The chosen material has no grating or film.");
     };
     if (begin_tile("Physics", {frame.size.x - right, top}, {right, height}))
-        draw_if_grating([&] { physics_.draw(session_.opened, session_.view, session_.measurement, controls_); });
+        draw_if_any([&] {
+            session_.opened.document().has_film()
+                ? film_.draw(controls_)
+                : physics_.draw(session_.opened, session_.view, session_.measurement, controls_);
+        });
     ImGui::End();
     if (begin_tile("Price", {left + gap, top + height - below}, {middle, below}))
-        draw_if_grating(
+        draw_if_any(
             [&] { price_.draw(session_.measurement, session_.opened, session_.view, frame.frame_ms, controls_); });
     ImGui::End();
     if (begin_tile("Preview", {left + gap, top}, {middle, height - below - gap},

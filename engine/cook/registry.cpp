@@ -41,6 +41,11 @@ nlohmann::json Context::read_json(const std::filesystem::path& path) {
     return parse_json({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, path.string());
 }
 
+nlohmann::ordered_json Context::read_ordered_json(const std::filesystem::path& path) {
+    read_json(path);  // refuses what is not sane
+    return nlohmann::ordered_json::parse(read(path, kMaximumJsonBytes));
+}
+
 void fail_changed(const std::filesystem::path& path) {
     fail_system(path.string(), "changed while it was being cooked", "cook again");
 }

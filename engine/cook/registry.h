@@ -44,6 +44,8 @@ class Context {
                                 const std::string& remedy = "");
     /// A file parsed as JSON (at most 16 MiB, depth-limited), and recorded. Throws Error (input).
     nlohmann::json read_json(const std::filesystem::path& path);
+    /// The same with its members in the order of the file.
+    nlohmann::ordered_json read_ordered_json(const std::filesystem::path& path);
 
  private:
     std::filesystem::path source_;

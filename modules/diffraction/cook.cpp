@@ -196,10 +196,8 @@ cook::GltfExtension gltf_extension() {
     extension.from_source = [](cook::Context& context) {
         const nlohmann::json json = context.read_json(context.source());
         parse_material(json, context.source().string(), read_through(context));
-        const std::vector<std::byte> text = context.read(context.source(), kMaximumNamedFileSize);
-        const auto* const begin = reinterpret_cast<const char*>(text.data());
         const std::filesystem::path folder = context.source().parent_path();
-        return gltf_object(nlohmann::ordered_json::parse(begin, begin + text.size()), folder, folder);
+        return gltf_object(context.read_ordered_json(context.source()), folder, folder);
     };
     extension.move = move_named_files;
     extension.rotation_member = "grooveRotation";

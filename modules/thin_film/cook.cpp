@@ -29,6 +29,13 @@ cook::GltfExtension iridescence() {
         return tables.empty() ? std::string("table: none, the film is not drawn\n")
                               : describe(read_gltf_film(tables, file));
     };
+    extension.source_type = kFilmAssetType;
+    extension.from_source = [](cook::Context& context) {
+        const std::string file = context.source().string();
+        parse_film_material(context.read_json(context.source()), file);
+        return gltf_object(context.read_ordered_json(context.source()), file);
+    };
+    extension.texture_member = "iridescenceThicknessTexture";
     return extension;
 }
 

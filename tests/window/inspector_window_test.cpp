@@ -244,7 +244,7 @@ TEST_F(InspectorWindow, AFileIsChosenByClicksAndEditsAreSavedOnTheWayAndOutliveA
     EXPECT_EQ(material(next.facts()), typed);
 }
 
-TEST_F(InspectorWindow, RefusedInputIsSaidNothingIsLostAndAFilmsFiguresFollowItsFields) {
+TEST_F(InspectorWindow, RefusedInputIsSaidAndNothingIsLost) {
     write_file_atomic(path("corrupt.json"), std::string_view("{\"grating\": {\"pitch_nm\": 16"));
     InspectorUser user(folder_.path(), preset("cd"));
     user.wait_for("message", "the light");  // a message stays until the next one
@@ -265,10 +265,17 @@ TEST_F(InspectorWindow, RefusedInputIsSaidNothingIsLostAndAFilmsFiguresFollowIts
     const Facts end = user.facts();
     EXPECT_EQ(end.at("document"), "cd.json *");
     EXPECT_EQ(material(end)["grating"]["orders"], json({-2, -1, 1, 2}));
+}
 
-    user.click("menu View");
-    user.click("menu Thin film");
+TEST_F(InspectorWindow, AFilmIsMadeFromNothingAttachedToASceneAndSaved) {
+    std::filesystem::copy_file(test::content_path("scenes/films.glb"), path("films.glb"));
+    InspectorUser user(folder_.path(), preset("cd"));
+    user.click("menu Presets");
+    user.click("menu anodised_titanium");
+    user.wait_for("document", "anodised_titanium.json");
+    user.wait_for("shape is", "sphere");
     const auto figures = [&] {
+        user.wait_for("busy", "no");
         user.wait_for("film is current", "yes");
         const Facts facts = user.facts();
         std::string all;
@@ -282,15 +289,50 @@ TEST_F(InspectorWindow, RefusedInputIsSaidNothingIsLostAndAFilmsFiguresFollowIts
         EXPECT_NE(after, before) << field;
         before = after;
     };
-    for (const char* field : {"film Index", "film Thickness", "film Base index", "film Base k", "film Angle of view"}) {
+    for (const char* field :
+         {"/film/ior", "/film/thickness_nm", "/film/k", "/base/ior", "/base/k", "/roughness", "film angle"}) {
         user.drag(field, {40, 0});
         expect_change(field);
     }
-    user.click("film Base");
-    user.click("film Base=Au");
-    expect_change("film Base");
-    user.drag("film Roughness", {80, 0});
-    expect_change("film Roughness");
+    user.click("/metal");
+    user.click("/metal=Au");
+    expect_change("/metal");
+    const json film = material(user.facts());
+    save_as(user, path("film.json"));
+    user.wait_for("message", "saved");
+
+    user.drop(path("films.glb"));
+    user.wait_for("document", "films.glb");
+    user.click("material slate");
+    user.wait_for("chosen material", "slate");
+    user.drop(path("film.json"));
+    user.wait_for("message", "the film of slate");
+    user.drag("/iridescenceThicknessMaximum", {40, 0});
+    user.key("ctrl+z");
+    user.drag("/iridescenceFactor", {-40, 0});
+    const json attached = material(user.facts());
+    EXPECT_EQ(attached["iridescenceThicknessMaximum"], film["film"]["thickness_nm"]);
+    EXPECT_EQ(attached["extras"]["metal"], "Au");
+    EXPECT_LT(attached["iridescenceFactor"], 1);
+    user.click("/iridescenceThicknessTexture");
+    user.click("/iridescenceThicknessTexture=texture");
+    user.wait_for("busy", "no");
+    const std::string picture = user.facts().at("picture");
+    user.click("remove");
+    EXPECT_TRUE(material(user.facts()).is_null());
+    user.key("ctrl+z");
+    const json saved = material(user.facts());
+    user.key("ctrl+s");
+    user.wait_for("message", "saved");
+    user.click("material oil on water");
+    user.wait_for("chosen material", "oil on water");
+    user.key("ctrl+o");
+    user.enter(path("films.glb"));
+    user.wait_for("message", "6 with a grating or film");
+    user.click("material slate");
+    user.wait_for("chosen material", "slate");
+    EXPECT_EQ(material(user.facts()), saved);
+    EXPECT_EQ(user.leave(), 0);
 }
 
 }  // namespace

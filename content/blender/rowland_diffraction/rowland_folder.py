@@ -19,8 +19,8 @@ def load_schema():
 
 
 def preset_files():
-    """The shipped materials, in a stable order."""
-    return sorted(MATERIALS.glob("*.json"))
+    """The shipped gratings, in a stable order."""
+    return sorted(file for file in MATERIALS.glob("*.json") if "grating" in json.loads(file.read_text()))
 
 
 def find_program(name):

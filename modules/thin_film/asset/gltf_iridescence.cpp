@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "engine/colour/illuminant.h"
+#include "engine/core/error.h"
 #include "engine/core/json_reader.h"
 #include "modules/thin_film/asset/film_material.h"
 
@@ -114,6 +115,24 @@ std::optional<FilmMaterial> film_material(const GltfIridescence& iridescence,
                                   .smoothest = description.metallic_roughness_texture ? 0.0 : roughness,
                                   .roughest = roughness},
                         .illuminant = iridescence.illuminant};
+}
+
+nlohmann::ordered_json gltf_object(const nlohmann::ordered_json& material, const std::string& file) {
+    const nlohmann::ordered_json& film = material.at("film");
+    const auto refuse = [&](std::string found) {
+        refuse_input(file, "/film", std::move(found), "one layer without \"k\"",
+                     "KHR_materials_iridescence holds no other; cook the film by itself");
+    };
+    if (film.is_array() && film.size() != 1) refuse(fmt::format("{} layers", film.size()));
+    const nlohmann::ordered_json& layer = film.is_array() ? film.front() : film;
+    if (layer.value("k", 0.0) != 0.0) refuse("a layer that absorbs");
+    nlohmann::ordered_json object = {{"iridescenceFactor", 1},
+                                     {"iridescenceIor", layer.at("ior")},
+                                     {"iridescenceThicknessMinimum", 0},
+                                     {"iridescenceThicknessMaximum", layer.at("thickness_nm")}};
+    for (const char* member : {"base", "metal", "illuminant"})
+        if (material.contains(member)) object["extras"][member] = material[member];
+    return object;
 }
 
 std::string describe(const GltfIridescence& iridescence) {

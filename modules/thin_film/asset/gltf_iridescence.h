@@ -35,6 +35,12 @@ GltfIridescence parse_gltf_iridescence(const nlohmann::json& json, const std::st
 /// infinite one: a very large one. Throws Error (input).
 double parse_gltf_ior(const nlohmann::json& json, const std::string& file, const std::string& pointer);
 
+/// A film material file's object as a glTF holds it: KHR_materials_iridescence, with the exact base and the illuminant
+/// in its extras. "roughness" is left out: it is the glTF material's own. A thickness texture that is added reaches
+/// from 0 to the film's thickness. `material` is sane (parse_film_material()). Throws Error (input) naming `file` for
+/// what the extension cannot hold: several layers, or one that absorbs.
+nlohmann::ordered_json gltf_object(const nlohmann::ordered_json& material, const std::string& file);
+
 /// "100 to 400 nm of ior 1.3, factor 1"
 std::string describe(const GltfIridescence& iridescence);
 

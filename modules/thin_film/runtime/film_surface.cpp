@@ -150,24 +150,32 @@ std::vector<std::string> FilmSurfaceType::gltf_extensions_beside() const {
     return {kIorExtension};
 }
 
-void FilmSurfaceType::attach(ecs::World& world, ecs::Entity entity, const render::MaterialExtension& extension,
-                             render::SurfaceTextures& textures) {
-    const auto& [object, description, file, pointer] = extension;
-    const GltfIridescence read = parse_gltf_iridescence(object, file, pointer);
+void add_film(ecs::World& world, ecs::Entity entity, const GltfIridescence& read, std::shared_ptr<const GpuFilm> film,
+              render::SurfaceTextures& textures, const std::string& file, const std::string& pointer) {
     FilmSurface surface{
+        .film = std::move(film),
         .factor = static_cast<float>(read.factor),
         .factor_texture = texture(read.factor_texture, textures, file, pointer + "/iridescenceTexture"),
         .minimum_thickness_nm = static_cast<float>(read.minimum_thickness_nm),
         .maximum_thickness_nm = static_cast<float>(read.maximum_thickness_nm),
         .thickness_texture = texture(read.thickness_texture, textures, file, pointer + "/iridescenceThicknessTexture")};
     auto& material = world.get<render::StandardMaterial>(entity);
-    if (read.factor == 0.0 || material.unlit) return;
+    if (surface.film == nullptr) return;
     if (material.clear_coat > 0.0F)
         log_warning("{}: {}: KHR_materials_clearcoat over a thin film is not drawn", file, pointer);
     material.clear_coat = 0.0F;
     material.passes_light = material.alpha_mode == scene::AlphaMode::Blend;
-    surface.film = uploaded(extension.tables(kIridescenceExtension), read, file + ": " + pointer);
     world.add(entity, std::move(surface));
+}
+
+void FilmSurfaceType::attach(ecs::World& world, ecs::Entity entity, const render::MaterialExtension& extension,
+                             render::SurfaceTextures& textures) {
+    const auto& [object, description, file, pointer] = extension;
+    const GltfIridescence read = parse_gltf_iridescence(object, file, pointer);
+    const bool drawn = read.factor != 0.0 && !description.unlit;  // as film_material() decides
+    add_film(world, entity, read,
+             drawn ? uploaded(extension.tables(kIridescenceExtension), read, file + ": " + pointer) : nullptr, textures,
+             file, pointer);
 }
 
 std::shared_ptr<const GpuFilm> FilmSurfaceType::uploaded(const std::vector<std::byte>& tables,

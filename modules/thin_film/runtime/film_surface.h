@@ -58,6 +58,12 @@ struct FilmSurface {
 /// `xyz_to_working` as the renderer's.
 void add_film(ecs::World& world, ecs::Entity entity, const CookedFilm& cooked, const glm::dmat3& xyz_to_working);
 
+/// The same for the film of a glTF's material; null: it is not drawn. `textures`: those of the glTF. `file` and
+/// `pointer`, the JSON pointer of the extension, are for messages. Throws Error (input) for a missing texture.
+void add_film(ecs::World& world, ecs::Entity entity, const GltfIridescence& iridescence,
+              std::shared_ptr<const GpuFilm> film, render::SurfaceTextures& textures, const std::string& file,
+              const std::string& pointer);
+
 /// Draws entities that have a FilmSurface, and reads KHR_materials_iridescence.
 class FilmSurfaceType final : public render::MaterialType {
  public:

@@ -163,6 +163,35 @@ TEST_F(Attach, TurnsGroovesAndVariesThemByAnImage) {
                 HasSubstr("2 materials; expected one --material"));
 }
 
+TEST_F(Attach, AFilmReplacesAGratingAndIsReplacedAndTheSurfacesOwnIndexStays) {
+    constexpr const char* kFilm = "KHR_materials_iridescence";
+    const std::string titanium = test::content_path("materials/anodised_titanium.json").string();
+    fs::copy_file(test::content_path("materials/wing_cell.png"), path("bands.png"));
+    write("scene.gltf", R"({"asset": {"version": "2.0"}, "materials": [{"name": "Ring", "extensions":
+        {"KHR_materials_ior": {"ior": 1.4}}}]})");
+    const std::string bare = text();
+    ASSERT_EQ(attach({"--material", "Ring", dvd}).code, 0);
+    const test::Ended ended = attach({"--material", "Ring", titanium, "--thickness-texture", path("bands.png")});
+    ASSERT_EQ(ended.code, 0) << ended.err;
+    const OrderedJson extensions = material(0)["extensions"];
+    EXPECT_FALSE(extensions.contains(kExtension));
+    EXPECT_EQ(extensions[kFilm], OrderedJson::parse(R"({"iridescenceFactor": 1, "iridescenceIor": 2.4,
+        "iridescenceThicknessMinimum": 0, "iridescenceThicknessMaximum": 45, "extras": {"base": {"ior": 2.5, "k": 3.3}},
+        "iridescenceThicknessTexture": {"index": 0}})"));
+    EXPECT_THAT(list(), HasSubstr("#0\tRing\t0 to 45 nm of ior 2.4, factor 1\t"));
+    EXPECT_EQ(test::run({ROWLAND_COOK, "check", path("scene.gltf")}).code, 0);
+    const test::Ended turned = attach({"--material", "Ring", titanium, "--groove-rotation-deg", "90"});
+    EXPECT_EQ(turned.code, 2);
+    EXPECT_THAT(turned.err, HasSubstr("a film source; expected a grating"));
+    const std::string layers = write("layers.json", R"({"film": [{"ior": 2.4, "thickness_nm": 57},
+        {"ior": 1.46, "thickness_nm": 94}], "base": {"ior": 1.52}})");
+    EXPECT_THAT(attach({"--material", "Ring", layers}).err, HasSubstr("/film: 2 layers; expected one layer"));
+    ASSERT_EQ(attach({"--material", "Ring", dvd}).code, 0);
+    EXPECT_FALSE(material(0)["extensions"].contains(kFilm));
+    ASSERT_EQ(attach({"--remove", "Ring"}).code, 0);
+    EXPECT_EQ(material(0), OrderedJson::parse(bare)["materials"][0]);
+}
+
 TEST_F(Attach, ListGoesOnAfterARefusedGrating) {
     write("bad.gltf", R"({"asset":{"version":"2.0"},"materials":[
         {"name":"a\tb","extensions":{"ROWLAND_materials_diffraction":{"grating":{"pitch_nm":-1}}}},{"name":"c"}]})");

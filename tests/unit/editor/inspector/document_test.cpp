@@ -56,6 +56,29 @@ TEST_F(DocumentTest, AnEditIsInTheFileAfterSavingAndNotBefore) {
     EXPECT_EQ(Document::open(path("cd.json")).json(), document.json());
 }
 
+TEST_F(DocumentTest, AFilmIsEditedTakenBackRefusedAndSaved) {
+    std::filesystem::copy_file(kMaterials / "anodised_titanium.json", path("film.json"));
+    Document document = Document::open(path("film.json"));
+    EXPECT_TRUE(document.has_film() && !document.has_grating());
+    const auto thickness_nm = [](const Document& of) {
+        return std::get<thin_film::FilmMaterial>(of.accepted()->parsed).range.thickest_nm;
+    };
+    EXPECT_EQ(thickness_nm(document), 45.0);
+    document.set_value(field_at("/film/thickness_nm"), 60);
+    document.finish_edit();
+    document.set_choice(*shown_field("/metal", document.json()), "Al");
+    document.set_value(*shown_field("/roughness", document.json()), 2);
+    ASSERT_TRUE(document.refusal());
+    EXPECT_EQ(document.refusal()->field, shown_field("/roughness", document.json()));
+    EXPECT_THROW(document.save(), Error);
+    document.undo();
+    document.save();
+    const Document again = Document::open(path("film.json"));
+    EXPECT_EQ(again.json(), document.json());
+    EXPECT_EQ(again.json()["metal"], "Al");
+    EXPECT_EQ(thickness_nm(again), 60.0);
+}
+
 TEST_F(DocumentTest, ALatticeIsEditedTakenBackRefusedAndSaved) {
     for (const char* name : {"butterfly_wing.json", "wing_cell.png"})
         std::filesystem::copy_file(kMaterials / name, path(name));

@@ -11,6 +11,7 @@
 #include "engine/core/file.h"
 #include "modules/asset_types.h"
 #include "modules/diffraction/asset/material.h"
+#include "modules/thin_film/asset/gltf_iridescence.h"
 #include "tests/support/expect.h"
 #include "tests/support/files.h"
 
@@ -28,15 +29,39 @@ diffraction::Material parse(const Json& material) {
                                        diffraction::read_beside(test::content_path("materials")));
 }
 
+/// A list of fields, with the least material that shows them.
+struct Kind {
+    std::span<const Field> fields;
+    Json least;
+    void (*parse)(const Json&);
+};
+
+const std::vector<Kind>& kinds() {
+    static const std::vector<Kind> all = {
+        {fields(), cd(), [](const Json& material) { parse(material); }},
+        {film_fields(), Json::parse(R"({"film": {"ior": 1.33, "thickness_nm": 400}, "base": {"ior": 1}})"),
+         [](const Json& material) { thin_film::parse_film_material(nlohmann::json(material), "m.json"); }},
+        {iridescence_fields(), Json::parse(R"({"iridescenceFactor": 1})"),
+         [](const Json& material) { thin_film::parse_gltf_iridescence(nlohmann::json(material), "m.glb", ""); }}};
+    return all;
+}
+
+const Kind& kind_of(const Field& field) {
+    return *std::ranges::find_if(kinds(), [&](const Kind& kind) {
+        return &field >= kind.fields.data() && &field < kind.fields.data() + kind.fields.size();
+    });
+}
+
 /// A material that shows the field.
 Json suited_to(const Field& field) {
-    if (field.only_with.empty()) return cd();
+    const Kind& kind = kind_of(field);
+    if (field.only_with.empty()) return kind.least;
     const std::string& name = field.only_for.front();
     const auto offers = [&](const Field& other) {
         return other.pointer == field.only_with &&
                std::ranges::any_of(other.choices, [&](const Choice& choice) { return choice.name == name; });
     };
-    const Field& other = *std::ranges::find_if(fields(), offers);
+    const Field& other = *std::ranges::find_if(kind.fields, offers);
     Json material = with_choice(suited_to(other), other, name);
     if (name == "streak") material["grating"]["groove_lobe"] = {{"sigma", 0.1}};
     if (name == "height_map") material["grating"]["profile"]["file"] = "wing_cell.png";
@@ -49,25 +74,30 @@ std::string name_of(const Field& field) {
 }
 
 TEST(Fields, EveryOneHasItsUnitRangeHelpAndSource) {
-    std::set<std::string> pointers;
-    for (const Field& field : fields()) {
-        EXPECT_TRUE(pointers.insert(name_of(field)).second) << field.pointer;
-        EXPECT_FALSE(field.label.empty()) << field.pointer;
-        EXPECT_GT(field.help.size(), 20U) << field.pointer;
-        EXPECT_FALSE(field.source.empty()) << field.pointer;
-        EXPECT_LT(field.minimum, field.maximum) << field.pointer;
-        EXPECT_EQ(field.pointer.ends_with("_nm"), field.unit == "nm") << field.pointer;
+    for (const Kind& kind : kinds()) {
+        std::set<std::string> pointers;
+        for (const Field& field : kind.fields) {
+            EXPECT_TRUE(pointers.insert(name_of(field)).second) << field.pointer;
+            EXPECT_FALSE(field.label.empty()) << field.pointer;
+            EXPECT_GT(field.help.size(), 20U) << field.pointer;
+            EXPECT_FALSE(field.source.empty()) << field.pointer;
+            EXPECT_LT(field.minimum, field.maximum) << field.pointer;
+            EXPECT_EQ(field.pointer.ends_with("_nm") || field.pointer.find("ThicknessM") != std::string::npos,
+                      field.unit == "nm")
+                << field.pointer;
+        }
     }
 }
 
 TEST(Fields, AMaterialShowsOneFieldOfAPointer) {
-    for (const Field& suited : fields()) {
-        const Json material = suited_to(suited);
-        EXPECT_EQ(shown_field(suited.pointer, material), &suited) << name_of(suited);
-        std::set<std::string> shown;
-        for (const Field& field : fields())
-            EXPECT_TRUE(!is_shown(field, material) || shown.insert(field.pointer).second) << field.pointer;
-    }
+    for (const Kind& kind : kinds())
+        for (const Field& suited : kind.fields) {
+            const Json material = suited_to(suited);
+            EXPECT_EQ(shown_field(suited.pointer, material), &suited) << name_of(suited);
+            std::set<std::string> shown;
+            for (const Field& field : kind.fields)
+                EXPECT_TRUE(!is_shown(field, material) || shown.insert(field.pointer).second) << field.pointer;
+        }
 }
 
 // The schema lists what a material may hold; whoever adds a member must tell the inspector of it.
@@ -85,44 +115,54 @@ TEST(Fields, EveryMemberOfTheSchemaHasAField) {
     for (const std::string of : {"base", "cover", "transmission"})
         for (const auto& [name, part] : members[of]["properties"].items())
             EXPECT_TRUE(has_field("/" + of + "/" + name)) << name;
+    std::set<std::string> of_film;
+    const Json film = modules::asset_types()->find("film")->schema();
+    for (const Json& alternative : film["oneOf"])
+        for (const auto& [name, part] : alternative["properties"].items()) of_film.insert("/" + name);
+    EXPECT_EQ(of_film.size(), 5U);
+    for (const std::string& pointer : of_film)
+        EXPECT_TRUE(std::ranges::any_of(film_fields(), [&](const Field& field) {
+            return field.pointer.starts_with(pointer);
+        })) << pointer;
 }
 
 TEST(Fields, BothEndsOfEverySliderAreSaneMaterials) {
     int checked = 0;
-    for (const Field& field : fields()) {
-        if (field.kind != FieldKind::Number && field.kind != FieldKind::Count) continue;
-        for (const double end : {field.minimum, field.maximum}) {
-            Json material = suited_to(field);
-            Json& grating = material["grating"];
-            if (grating.contains("lattice"))
-                grating["lattice"] = {{"a_nm", {end + 500.0, 0.0}}, {"b_nm", {0.0, end + 500.0}}};
-            else if (field.pointer == "/grating/profile/width_nm")
-                grating["pitch_nm"] = end;
-            if (field.pointer == "/grating/pitch_nm") material["grating"]["profile"]["width_nm"] = end / 2.0;
-            if (field.pointer == "/quality/map_resolution" && end < 8.0) continue;  // the parser's is 8
-            const Json value = field.kind == FieldKind::Count ? Json(static_cast<int>(end)) : Json(end);
-            EXPECT_NO_THROW(parse(with_value(material, field, value))) << field.pointer << " " << end;
-            ++checked;
+    for (const Kind& kind : kinds())
+        for (const Field& field : kind.fields) {
+            if (field.kind != FieldKind::Number && field.kind != FieldKind::Count) continue;
+            for (const double end : {field.minimum, field.maximum}) {
+                Json material = suited_to(field);
+                if (const Json& grating = material.value("grating", Json()); grating.contains("lattice"))
+                    material["grating"]["lattice"] = {{"a_nm", {end + 500.0, 0.0}}, {"b_nm", {0.0, end + 500.0}}};
+                else if (field.pointer == "/grating/profile/width_nm")
+                    material["grating"]["pitch_nm"] = end;
+                if (field.pointer == "/grating/pitch_nm") material["grating"]["profile"]["width_nm"] = end / 2.0;
+                if (field.pointer == "/quality/map_resolution" && end < 8.0) continue;  // the parser's is 8
+                const Json value = field.kind == FieldKind::Count ? Json(static_cast<int>(end)) : Json(end);
+                EXPECT_NO_THROW(kind.parse(with_value(material, field, value))) << field.pointer << " " << end;
+                ++checked;
+            }
         }
-    }
-    EXPECT_GT(checked, 25);
+    EXPECT_GT(checked, 100);
 }
 
 TEST(Fields, EveryChoiceIsASaneMaterial) {
     int checked = 0;
-    for (const Field& field : fields()) {
-        for (const Choice& choice : field.choices) {
-            if (choice.name == "table") continue;  // needs a file
-            Json material = suited_to(field);
-            if (choice.name == "streak") material["grating"]["groove_lobe"] = {{"sigma", 0.1}};
-            Json chosen = with_choice(material, field, choice.name);
-            if (choice.name == "height_map") chosen["grating"]["profile"]["file"] = "wing_cell.png";
-            EXPECT_NO_THROW(parse(chosen)) << field.pointer << " " << choice.name;
-            EXPECT_EQ(choice_of(field, chosen), choice.name) << field.pointer;
-            ++checked;
+    for (const Kind& kind : kinds())
+        for (const Field& field : kind.fields) {
+            for (const Choice& choice : field.choices) {
+                if (choice.name == "table") continue;  // needs a file
+                Json material = suited_to(field);
+                if (choice.name == "streak") material["grating"]["groove_lobe"] = {{"sigma", 0.1}};
+                Json chosen = with_choice(material, field, choice.name);
+                if (choice.name == "height_map") chosen["grating"]["profile"]["file"] = "wing_cell.png";
+                EXPECT_NO_THROW(kind.parse(chosen)) << field.pointer << " " << choice.name;
+                EXPECT_EQ(choice_of(field, chosen), choice.name) << field.pointer;
+                ++checked;
+            }
         }
-    }
-    EXPECT_GT(checked, 20);
+    EXPECT_GT(checked, 50);
 }
 
 TEST(Fields, WhatAnAbsentMemberMeansIsWhatTheParserTakes) {
@@ -154,6 +194,29 @@ TEST(Fields, NewMembersStandWhereFilesHaveThem) {
         material.dump(),
         R"({"grating":{"pitch_nm":1600,"grooves":100,"profile":{"type":"slit","width_nm":800}},)"
         R"("metal":"Al","cover":{"ior":1.58,"tint":[0.5,1,1]},"base":{"roughness":0.5},"quality":{"max_error":0.1}})");
+}
+
+TEST(Fields, AFilmLiesOnAMetalOrAnIndexAndKeepsItsFirstLayers) {
+    const Json titanium = Json::parse(R"({"film": {"ior": 2.4, "thickness_nm": 45}, "base": {"ior": 2.5, "k": 3.3}})");
+    const Field& metal = *shown_field("/metal", titanium);
+    const Json gold = with_choice(titanium, metal, "Au");
+    EXPECT_EQ(gold.dump(), R"({"film":{"ior":2.4,"thickness_nm":45},"metal":"Au"})");
+    EXPECT_EQ(reverted(gold, metal)["base"], Json::parse(R"({"ior": 1.5})"));
+    const Json in_scene = Json::parse(R"({"extras": {"base": {"ior": 2.5, "k": 3.3}, "by": "hand"}})");
+    const Field& in_scene_metal = *shown_field("/extras/metal", in_scene);
+    const Json on_gold = with_choice(in_scene, in_scene_metal, "Au");
+    EXPECT_EQ(on_gold["extras"], Json::parse(R"({"metal": "Au", "by": "hand"})"));
+    EXPECT_EQ(reverted(on_gold, in_scene_metal)["extras"], Json::parse(R"({"by": "hand"})")) << "as its surface";
+
+    const Field& layers = field_at("/film");
+    const Json three = with_choice(titanium, layers, "3");
+    EXPECT_EQ(three["film"].size(), 3U);
+    EXPECT_EQ(three["film"][0], titanium["film"]);
+    const Json edited = with_value(three, *shown_field("/film/1/ior", three), 1.46);
+    EXPECT_EQ(edited["film"][1]["ior"], 1.46);
+    EXPECT_EQ(edited["film"][2], three["film"][2]);
+    EXPECT_EQ(with_choice(edited, layers, "2")["film"][1], edited["film"][1]);
+    EXPECT_EQ(with_choice(edited, layers, "1"), titanium);
 }
 
 TEST(Fields, RevertingLeavesOutWhatNeedNotBeThere) {

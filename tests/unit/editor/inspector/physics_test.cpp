@@ -348,9 +348,11 @@ TEST(FilmCurves, OfTheTableAreWithinOnePercentWhereGltfsFormulaIsNot) {
 
 TEST(FilmCurves, FollowEveryInput) {
     const FilmCurves before = curves_of({});
+    const thin_film::Layer soap;
     for (const FilmInputs& changed :
-         {FilmInputs{.ior = 1.5}, FilmInputs{.thickness_nm = 300.0}, FilmInputs{.metal = colour::Metal::Au},
-          FilmInputs{.base_ior = 1.5}, FilmInputs{.base_k = 2.0}, FilmInputs{.roughness = 0.4}}) {
+         {FilmInputs{.film = {.layers = {soap, {.index = 1.5}}, .base = std::complex<double>(1.0)}},
+          FilmInputs{.film = {.layers = {soap}, .base = colour::Metal::Au}}, FilmInputs{.roughness = 0.4},
+          FilmInputs{.illuminant = "A"}}) {
         const FilmCurves after = curves_of(changed);
         EXPECT_NE(after.over_angle.exact, before.over_angle.exact);
         EXPECT_NE(after.over_angle.table, before.over_angle.table);
@@ -359,7 +361,7 @@ TEST(FilmCurves, FollowEveryInput) {
 }
 
 TEST(FilmCurves, OfNoFilmAreThoseOfTheBase) {
-    const FilmCurves bare = curves_of({.thickness_nm = 0.0, .base_ior = 1.5});
+    const FilmCurves bare = curves_of({.film = {.layers = {{.thickness_nm = 0.0}}, .base = std::complex(1.5, 0.0)}});
     for (std::size_t i = 0; i < bare.spectrum.size(); ++i) EXPECT_NEAR(bare.spectrum[i].y, bare.bare[i].y, 1e-12);
     EXPECT_NEAR(bare.over_angle.exact.front().y, 0.04, 1e-4);
 }

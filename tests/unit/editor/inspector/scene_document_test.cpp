@@ -59,10 +59,10 @@ TEST_F(SceneDocument, TheFirstGratingIsChosenAndSavingItUnchangedKeepsAll) {
 
 TEST_F(SceneDocument, WhatIsAttachedAndRemovedIsTakenBackInTurnAtItsMaterial) {
     Document document = opened();
-    document.set_grating(nullptr, "nothing");
+    document.set_extension(nullptr, "nothing");
     EXPECT_FALSE(document.has_grating());
     document.choose(0);
-    document.set_grating(kDvd, "dvd");
+    document.set_extension(kDvd, "dvd");
     document.set_value(field_at("/grooveRotation"), 0.5);
     document.set_value(field_at("/grooveRotation"), 1.0);
     document.finish_edit();
@@ -90,7 +90,7 @@ TEST_F(SceneDocument, SavingChangesTheEditedMaterialAlone) {
     Document document = opened();
     const Json before = saved();
     document.choose(0);
-    document.set_grating(kDvd, "dvd");
+    document.set_extension(kDvd, "dvd");
     document.set_value(field_at("/grooveRotation"), 0.25);
     EXPECT_TRUE(document.edited(0));
     EXPECT_FALSE(document.edited(1));
@@ -107,7 +107,7 @@ TEST_F(SceneDocument, SavingChangesTheEditedMaterialAlone) {
 TEST_F(SceneDocument, APrimitiveWithoutAMaterialGetsOneOnlyWhenItIsSavedWithAGrating) {
     Document document = opened();
     document.choose(2);
-    document.set_grating(kDvd, "dvd");
+    document.set_extension(kDvd, "dvd");
     document.undo();
     document.save();
     EXPECT_EQ(saved(), Json::parse(kScene));
@@ -119,6 +119,76 @@ TEST_F(SceneDocument, APrimitiveWithoutAMaterialGetsOneOnlyWhenItIsSavedWithAGra
     document.set_value(field_at("/grooveRotation"), 0.5);
     document.save();
     EXPECT_EQ(saved()["materials"].size(), 3U);
+}
+
+/// As another program writes it, with members that we do not know.
+const std::string kFilmScene = R"({"asset": {"version": "2.0"}, "textures": [{}], "extensionsUsed":
+    ["KHR_materials_ior", "KHR_materials_iridescence", "OTHER", "X"], "materials": [{"name": "bubble", "extensions": {
+    "KHR_materials_ior": {"ior": 1.0}, "OTHER": {"a": 1.0}, "KHR_materials_iridescence": {"extras": {"by": "hand"},
+    "iridescenceFactor": 0.5, "iridescenceThicknessTexture": {"index": 0, "extras": [1]}, "extensions": {"X": {}}}}}]})";
+
+TEST_F(SceneDocument, AFilmOfAnotherProgramIsEditedReplacedAndRemovedAndAllElseStays) {
+    write_file_atomic(path("scene.gltf"), kFilmScene);
+    Document document = Document::open_scene(scene::EditableGltf::open(path("scene.gltf")));
+    EXPECT_TRUE(document.has_film());
+    document.save();
+    EXPECT_EQ(saved(), Json::parse(kFilmScene));
+    document.set_value(field_at("/iridescenceThicknessMaximum"), 700);
+    document.set_choice(field_at("/extras/metal"), "Ag");
+    document.save();
+    Json expected = Json::parse(kFilmScene);
+    Json& film = expected["materials"][0]["extensions"]["KHR_materials_iridescence"];
+    film["iridescenceThicknessMaximum"] = 700;
+    film["extras"]["metal"] = "Ag";
+    EXPECT_EQ(nlohmann::json(saved()), nlohmann::json(expected));
+    EXPECT_EQ(nlohmann::json(Document::open_scene(scene::EditableGltf::open(path("scene.gltf"))).json()),
+              nlohmann::json(document.json()));
+
+    document.set_extension(kDvd, "dvd");
+    EXPECT_TRUE(document.has_grating());
+    document.save();
+    EXPECT_EQ(saved()["materials"][0]["extensions"], Json::parse(R"({"KHR_materials_ior": {"ior": 1.0},
+        "OTHER": {"a": 1.0}, "ROWLAND_materials_diffraction": )" +
+                                                                 kDvd.dump() + "}"));
+    for (int i = 0; i < 3; ++i) document.undo();
+    EXPECT_TRUE(document.has_film());
+    document.set_extension(nullptr, "nothing");
+    document.save();
+    EXPECT_EQ(saved()["materials"][0]["extensions"].size(), 2U);
+    EXPECT_EQ(saved()["extensionsUsed"], Json({"KHR_materials_ior", "OTHER"}));
+    document.undo();
+    document.save();
+    EXPECT_EQ(nlohmann::json(saved()["materials"]), nlohmann::json(Json::parse(kFilmScene)["materials"]));
+}
+
+TEST_F(SceneDocument, APictureOfAFilmsThicknessIsSavedOnce) {
+    Document document = opened();
+    document.choose(0);
+    document.set_extension(Json::parse(R"({"iridescenceFactor": 1})"), "film");
+    const std::size_t index = document.new_textures().add(foil_pattern("tiles"), "tiles.png");
+    for (const char* texture : {"/iridescenceThicknessTexture", "/iridescenceTexture"})
+        document.set_value(field_at(texture), {{"index", index}});
+    document.save();
+    const Json film = saved()["materials"][0]["extensions"]["KHR_materials_iridescence"];
+    EXPECT_EQ(film["iridescenceThicknessTexture"]["index"], 0);
+    EXPECT_EQ(film["iridescenceTexture"]["index"], 0);
+    EXPECT_EQ(saved()["textures"].size(), 1U);
+}
+
+TEST_F(SceneDocument, AFilmOnAGratingAndBadFilmsAreRefusedByTheirPointers) {
+    const auto message_with = [&](const std::string& extensions) {
+        write_file_atomic(path("bad.gltf"),
+                          R"({"asset": {"version": "2.0"}, "materials": [{"extensions": )" + extensions + "}]}");
+        return test::message_of([&] { Document::open_scene(scene::EditableGltf::open(path("bad.gltf"))); });
+    };
+    const std::string grating = R"("ROWLAND_materials_diffraction": )" + kDvd.dump();
+    const std::string pointer = "/materials/0/extensions/";
+    EXPECT_THAT(message_with("{" + grating + R"(, "KHR_materials_iridescence": {}})"),
+                HasSubstr(pointer + "KHR_materials_iridescence: a film on a grating"));
+    EXPECT_THAT(message_with(R"({"KHR_materials_iridescence": {"iridescenceIor": 0.5}})"),
+                HasSubstr(pointer + "KHR_materials_iridescence/iridescenceIor"));
+    EXPECT_THAT(message_with(R"({"ROWLAND_materials_diffraction": {}})"),
+                HasSubstr(pointer + "ROWLAND_materials_diffraction/grating: missing"));
 }
 
 TEST_F(SceneDocument, AFileThatAnotherProgramChangedIsNotWrittenOverUnasked) {
@@ -139,7 +209,7 @@ TEST_F(SceneDocument, ARefusedGratingIsNeitherAttachedNorSaved) {
     Document document = opened();
     document.choose(0);
     EXPECT_THAT(test::message_of(
-                    [&] { document.set_grating(Json::parse(R"({"grating": {"pitch_nm": -1}})"), "the clipboard"); }),
+                    [&] { document.set_extension(Json::parse(R"({"grating": {"pitch_nm": -1}})"), "the clipboard"); }),
                 HasSubstr("the clipboard"));
     EXPECT_FALSE(document.has_grating());
     document.choose(1);
@@ -165,7 +235,7 @@ TEST_F(SceneDocument, APictureIsWrittenOnceItIsUsedAndSaved) {
     document.new_textures().add(foil_pattern("tiles"), "unused.png");
     const std::size_t index = document.new_textures().add(foil_pattern("hexagons"), "hexagons.png");
     document.set_value(field_at("/grooveTexture"), {{"index", index}});
-    ASSERT_NE(document.accepted()->groove_picture, nullptr);
+    ASSERT_NE(document.accepted()->textures.find(index), nullptr);
     document.save();
     Json after = saved();
     ASSERT_EQ(after["textures"].size(), 1U);

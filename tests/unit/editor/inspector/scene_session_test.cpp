@@ -7,7 +7,9 @@
 #include <string_view>
 #include <vector>
 
+#include "engine/image/byte_image.h"
 #include "engine/scene/mesh_recipe.h"
+#include "tests/support/program.h"
 #include "tests/unit/editor/inspector/small_session.h"
 #include "tests/unit/engine/scene/hand_written_gltf.h"
 
@@ -95,7 +97,7 @@ TEST_F(SceneSession, AClickChoosesAMaterialAndItsGratingLeavesTheOthersAsTheyWer
     EXPECT_GT(changes(before, after)[1], 100);
     // The scene's own surface stays under the grating: blue, not the material file's green.
     EXPECT_FALSE(document().json().contains("base"));
-    session_.opened.remove_grating();
+    session_.opened.remove();
     draw(100);
     EXPECT_EQ(picture(), before);
     document().undo();
@@ -170,6 +172,67 @@ TEST_F(SceneSession, AFoilPatternVariesTheGroovesOfItsMaterial) {
     draw(10);
     EXPECT_GT(changes(before, picture())[0], 50);
     EXPECT_EQ(changes(before, picture())[1], 0);
+}
+
+TEST_F(SceneSession, AFilmIsAttachedEditedVariedByAPictureSavedAndOpenedAgainAsItWas) {
+    draw_until_open();
+    session_.view.pick({0.3, 0.5});
+    draw(20);
+    const auto bare = picture();
+    const auto drawn = [&] {
+        draw_until([&] { return !session_.opened.busy(); });
+        draw(20);
+        return picture();
+    };
+    session_.open_preset("anodised_titanium");
+    EXPECT_FALSE(last_message().failure) << last_message().text;
+    const auto attached = drawn();
+    EXPECT_EQ(changes(bare, attached)[1], 0);
+    EXPECT_GT(changes(bare, attached)[0], 100);
+    EXPECT_EQ(session_.opened.film()->material.range.roughest, 0.5) << "the surface's own";
+
+    document().set_value(field_at("/iridescenceFactor"), 0);
+    document().finish_edit();
+    EXPECT_EQ(drawn(), bare);
+    document().undo();
+    EXPECT_EQ(drawn(), attached);
+    const auto table = session_.opened.film();
+    document().set_value(field_at("/iridescenceFactor"), 0.5);
+    const auto half = drawn();
+    EXPECT_NE(half, attached);
+    EXPECT_EQ(session_.opened.film(), table) << "which does not depend on the factor";
+
+    const std::vector<std::uint8_t> grey = {40, 40, 40, 255, 220, 220, 220, 255};
+    write_file_atomic(path("bands.png"), image::encode_png(2, 1, 4, grey));
+    session_.open(path("bands.png"));
+    EXPECT_FALSE(last_message().failure) << last_message().text;
+    const auto varied = drawn();
+    EXPECT_NE(varied, half);
+    EXPECT_EQ(session_.opened.film()->material.range.thinnest_nm, 0.0);
+    session_.opened.save();
+    EXPECT_EQ(test::run({ROWLAND_COOK, "check", path("spheres.glb").string()}).code, 0);
+    session_.open(path("spheres.glb"));
+    session_.opened.finish_opening();
+    EXPECT_TRUE(document().has_film());
+    EXPECT_EQ(drawn(), varied);
+    session_.open(path("m.json"));
+    EXPECT_TRUE(document().has_grating()) << "which replaces the film";
+    session_.opened.remove();
+    EXPECT_EQ(drawn(), bare);
+}
+
+TEST_F(SceneSession, WhatAFilmCannotBeIsSaid) {
+    draw_until_open();
+    write_file_atomic(path("stack.json"), R"({"film": [{"ior": 2.4, "thickness_nm": 57},
+        {"ior": 1.46, "thickness_nm": 94}], "base": {"ior": 1.52}})");
+    session_.open(path("stack.json"));
+    EXPECT_THAT(last_message().text, testing::AllOf(HasSubstr("stack.json: /film: 2 layers"), HasSubstr("one layer")));
+    EXPECT_FALSE(document().accepted());
+    session_.opened.paste(R"({"film": {"ior": 1.33, "thickness_nm": 250}, "metal": "Au"})");
+    EXPECT_EQ(document().json()["extras"]["metal"], "Au") << last_message().text;
+    document().set_choice(field_at("/iridescenceThicknessTexture"), "texture");
+    draw_until([&] { return last_message().failure; });
+    EXPECT_THAT(last_message().text, HasSubstr("/iridescenceThicknessTexture"));
 }
 
 TEST_F(SceneSession, OpeningIsCancelledAndARefusedFileIsSaid) {

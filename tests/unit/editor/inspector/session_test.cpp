@@ -48,11 +48,11 @@ class SessionTest : public SmallSession {
     PriceList list_;
 };
 
-TEST(GratingCook, AnEditedTableOfEfficienciesIsBakedAgain) {
+TEST(SurfaceCook, AnEditedTableOfEfficienciesIsBakedAgain) {
     const test::TemporaryFolder folder;
     const auto material = Json::parse(R"({"grating": {"pitch_nm": 1600, "orders": [1],
         "profile": {"type": "table", "file": "t.csv"}}, "quality": {"representation": "direct"}})");
-    GratingCook cook(nullptr);
+    SurfaceCook cook(nullptr);
     const auto cooked = [&](const char* efficiency) {
         write_file_atomic(folder.path() / "t.csv", std::string("wavelength_nm,R+1\n550,") + efficiency + "\n");
         return cook.cook(*accept_material(material, "m.json", folder.path()))->material;
@@ -168,6 +168,31 @@ TEST_F(SessionTest, APresetOpensOnTheShapeThatShowsItsColours) {
     EXPECT_EQ(session_.view.shape(), PreviewShape::Card) << "lattices are drawn by planar on flat shapes";
     session_.open_preset("cd");
     EXPECT_EQ(session_.view.shape(), PreviewShape::Disc);
+}
+
+TEST_F(SessionTest, AFilmIsDrawnOnEveryShapeAndFollowsItsFields) {
+    session_.open_preset("soap_film");
+    EXPECT_EQ(session_.view.shape(), PreviewShape::Sphere);
+    const auto drawn = [&] {
+        draw_until([&] { return session_.view.ready() && session_.opened.film() && !session_.opened.busy(); });
+        draw(20);
+        return picture();
+    };
+    drawn();
+    for (const PreviewShape shape : {PreviewShape::Sheet, PreviewShape::Card, PreviewShape::Disc}) {
+        session_.view.choose_shape(shape);
+        const auto thick = drawn();
+        document().set_value(field_at("/film/thickness_nm"), 0);
+        document().finish_edit();
+        EXPECT_NE(drawn(), thick) << preview_shape_name(shape);
+        document().undo();
+        EXPECT_EQ(drawn(), thick);
+    }
+    EXPECT_EQ(session_.view.drawn_as(), nullptr) << "which is of gratings";
+    EXPECT_FALSE(session_.measurement.busy());
+    session_.open_preset("cd");
+    draw_until([&] { return session_.opened.cooked() != nullptr; });
+    EXPECT_FALSE(session_.opened.film());
 }
 
 TEST_F(SessionTest, ACookToABudgetMeasuresWhatItNeeds) {

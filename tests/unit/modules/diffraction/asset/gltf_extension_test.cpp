@@ -95,9 +95,10 @@ TEST(GltfObject, LeavesOutTheBaseAlone) {
 TEST(GltfObject, IsAcceptedForEveryShippedMaterial) {
     for (const fs::directory_entry& entry : fs::directory_iterator(rowland::test::content_path("materials"))) {
         if (entry.path().extension() != ".json") continue;
+        const OrderedJson source = OrderedJson::parse(read_text_file(entry.path(), 1 << 20));
+        if (!source.contains("grating")) continue;
         const fs::path elsewhere = fs::temp_directory_path();
-        const OrderedJson object = gltf_object(OrderedJson::parse(read_text_file(entry.path(), 1 << 20)),
-                                               entry.path().parent_path(), elsewhere);
+        const OrderedJson object = gltf_object(source, entry.path().parent_path(), elsewhere);
         const GltfGrating grating = parse_gltf_extension(nlohmann::json::parse(object.dump()), "scene.glb", elsewhere);
         EXPECT_FALSE(grating.has_base);
         const Grating expected = load_material(entry.path()).grating;

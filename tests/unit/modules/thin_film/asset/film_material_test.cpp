@@ -2,11 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "engine/core/file.h"
 #include "engine/core/json_reader.h"
 #include "modules/thin_film/asset/gltf_iridescence.h"
 #include "tests/support/expect.h"
+#include "tests/support/files.h"
 
 namespace rowland::thin_film {
 namespace {
@@ -83,6 +86,25 @@ TEST(GltfIridescence, ReadsTexturesTheirTransformsAndTheBaseOfItsExtras) {
     EXPECT_EQ(read.thickness_texture->texture, 3U);
     EXPECT_EQ(read.thickness_texture->transform.scale, glm::vec2(2.0F, 3.0F));
     EXPECT_EQ(*read.base, Base(std::complex<double>(2.5, 3.3)));
+}
+
+TEST(GltfObject, HoldsTheFilmOfEveryShippedMaterial) {
+    int films = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(rowland::test::content_path("materials"))) {
+        if (entry.path().extension() != ".json") continue;
+        const auto source = nlohmann::ordered_json::parse(read_text_file(entry.path(), 1 << 20));
+        if (!source.contains("film")) continue;
+        const FilmMaterial expected = parse_film_material(nlohmann::json(source), "m.json");
+        const GltfIridescence held =
+            parse_gltf_iridescence(nlohmann::json(gltf_object(source, "m.json")), "a.gltf", "");
+        scene::MaterialDescription surface;
+        surface.roughness = static_cast<float>(expected.range.roughest);
+        const FilmMaterial film = film_material(held, surface, "a.gltf", "").value();
+        EXPECT_EQ(film.film, expected.film) << entry.path();
+        EXPECT_FLOAT_EQ(static_cast<float>(film.range.roughest), static_cast<float>(expected.range.roughest));
+        ++films;
+    }
+    EXPECT_GE(films, 4);
 }
 
 }  // namespace
