@@ -42,7 +42,7 @@ void draw_angle_curves(const FilmCurves& curves) {
     const std::array<std::pair<const char*, const std::vector<glm::dvec3>*>, 3> lines = {
         {{"exact", &curves.over_angle.exact},
          {"table", &curves.over_angle.table},
-         {"glTF's formula", &curves.over_angle.formula}}};
+         {"glTF", &curves.over_angle.formula}}};
     for (std::size_t series = 0; series < lines.size(); ++series) {
         if (lines.at(series).second->empty()) continue;
         plot.line(luminances(curves.angles_deg, *lines.at(series).second), series);
@@ -102,7 +102,7 @@ void FilmPanel::draw_curves(const FilmCurves& curves, ControlMap& controls) cons
     controls.note("film at 550 nm", fmt::format("{:.4f}", curves.spectrum.at(550 - 380).y));
 }
 
-void FilmPanel::draw(ControlMap& controls) {
+void FilmPanel::draw(const View& view, ControlMap& controls) {
     if (!film_) return ImGui::TextWrapped("The film is not drawn yet, or its factor is 0, or its material is unlit.");
     ImGui::AlignTextToFramePadding();
     ImGui::TextUnformatted("Angle of view");
@@ -117,6 +117,7 @@ void FilmPanel::draw(ControlMap& controls) {
         draw_curves(*curves, controls);
     else
         ImGui::TextDisabled("Computing…");
+    draw_picked_pixel(view, controls);
     controls.note("film is current", curves_.current() && !curves_.busy() ? "yes" : "no");
 }
 

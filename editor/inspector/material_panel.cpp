@@ -239,13 +239,13 @@ void draw_actions(OpenDocument& opened, ControlMap& controls) {
     const Document& document = opened.document();
     const bool has = document.accepted() != nullptr;
     draw_attach(opened, has ? "Replace…" : "Attach…", controls);
-    ImGui::SameLine();
+    continue_line(3.5F);
     if (enabled_button("Copy", "copy", has, controls)) ImGui::SetClipboardText(format_json(document.json()).c_str());
-    ImGui::SameLine();
+    continue_line(3.5F);
     const char* clipboard = ImGui::GetClipboardText();
     const bool pasteable = clipboard != nullptr && std::string_view(clipboard).starts_with('{');
     if (enabled_button("Paste", "paste", pasteable, controls)) opened.paste(clipboard);
-    ImGui::SameLine();
+    continue_line(4.5F);
     if (enabled_button("Remove", "remove", has, controls)) opened.remove();
 }
 

@@ -302,7 +302,8 @@ bool OpenDocument::busy() const {
 
 std::shared_ptr<const CookedSurface> OpenDocument::surface(bool as_saved) const {
     const Cooking& cooking = as_saved ? saved_ : cooked_;
-    return document_.accepted() && cooking.value() != nullptr ? *cooking.value() : nullptr;
+    const bool is_there = (as_saved ? document_.saved() : document_.accepted()) != nullptr;
+    return is_there && cooking.value() != nullptr ? *cooking.value() : nullptr;
 }
 
 CookedSurfaces OpenDocument::surfaces(bool as_saved) const {

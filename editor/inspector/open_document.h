@@ -92,8 +92,6 @@ class OpenDocument {
     Cooked cooked() const {
         return document_.has_grating() && cooked_.value() ? (*cooked_.value())->material : nullptr;
     }
-    /// The grating of the chosen material of the file, cooked; null if there is none, or not yet.
-    Cooked saved() const { return document_.saved() && saved_.value() ? (*saved_.value())->material : nullptr; }
     /// The grating or film of the chosen material as last cooked, as edited or as saved; null: none, or not yet.
     std::shared_ptr<const CookedSurface> surface(bool as_saved) const;
     /// Those of all materials of a scene, with that of the chosen one as edited or as saved.

@@ -16,6 +16,9 @@
 
 namespace rowland::inspector {
 
+/// The values of the pixel that was picked.
+void draw_picked_pixel(const View& view, ControlMap& controls);
+
 /// The physics of a film as plots: its reflectance over wavelength and angle, and its colours over thickness, by the
 /// exact sum, by the cooked table and by glTF's formula.
 class FilmPanel {
@@ -23,7 +26,7 @@ class FilmPanel {
     /// Call it every frame.
     void update(const OpenDocument& opened);
     /// Into the current ImGui window.
-    void draw(ControlMap& controls);
+    void draw(const View& view, ControlMap& controls);
     /// Whether curves are being computed.
     bool busy() const { return curves_.busy(); }
 

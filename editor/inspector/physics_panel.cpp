@@ -241,6 +241,16 @@ void draw_energy(const diffraction::Grating& grating, const PaneLight& light, Co
 
 }  // namespace
 
+void draw_picked_pixel(const View& view, ControlMap& controls) {
+    if (const auto& picked = view.picked()) {
+        draw_row("Pixel, working", numbers_of(glm::dvec3(picked->working)));
+        draw_row("Pixel, display", fmt::format("{}  {}  {}", picked->display.r, picked->display.g, picked->display.b));
+        controls.note("picked", fmt::format("{} {} {}", picked->display.r, picked->display.g, picked->display.b));
+    } else {
+        ImGui::TextDisabled("Click the picture to pick another point.");
+    }
+}
+
 void PatternPane::paint(const View& view, const post::DisplayTransform& display) {
     exposure_stops_ = view.stage.exposure_stops;
     const glm::dmat3& to_working = view.preview().xyz_to_working();
@@ -309,13 +319,7 @@ void PhysicsPanel::draw_point(const View& view, const Measurement& measurement, 
     ImGui::GetWindowDrawList()->AddRectFilled(at, {at.x + ImGui::GetContentRegionAvail().x, at.y + font},
                                               ImGui::ColorConvertFloat4ToU32({shown.r, shown.g, shown.b, 1.0F}));
     ImGui::Dummy({0.0F, font});
-    if (const auto& picked = view.picked()) {
-        draw_row("Pixel, working", numbers_of(glm::dvec3(picked->working)));
-        draw_row("Pixel, display", fmt::format("{}  {}  {}", picked->display.r, picked->display.g, picked->display.b));
-        controls.note("picked", fmt::format("{} {} {}", picked->display.r, picked->display.g, picked->display.b));
-    } else {
-        ImGui::TextDisabled("Click the picture to pick another point.");
-    }
+    draw_picked_pixel(view, controls);
     if (!measurement.point_numbers_are_current()) ImGui::TextDisabled("Updating…");
     controls.note("point", numbers_of(numbers.radiance.reference));
 }

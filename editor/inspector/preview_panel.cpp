@@ -80,13 +80,6 @@ void draw_slider(const Slider& slider, Stage& stage, ControlMap& controls) {
     controls.mark(slider.name);
 }
 
-/// Continues the line of the last control if `letters` more fit; a narrow preview has several lines of tools.
-void continue_line(float letters) {
-    const float right = ImGui::GetWindowPos().x + ImGui::GetWindowContentRegionMax().x;
-    const float end = ImGui::GetItemRectMax().x + ImGui::GetStyle().ItemSpacing.x + letters * ImGui::GetFontSize();
-    if (end <= right) ImGui::SameLine();
-}
-
 void draw_shape_picker(View& view, bool has_scene, ControlMap& controls) {
     ImGui::SetNextItemWidth(5.2F * ImGui::GetFontSize());
     if (ImGui::BeginCombo("##shape", preview_shape_name(view.shape()))) {
@@ -214,7 +207,7 @@ void PreviewPanel::draw_tools(bool has_scene, bool has_grating, bool has_saved, 
 
 void PreviewPanel::draw(OpenDocument& opened, LightChoice& light, View& view, const platform::InputState& input,
                         float pixels_per_unit, float seconds, ControlMap& controls) {
-    has_saved_ = opened.saved() != nullptr;
+    has_saved_ = opened.surface(true) != nullptr;
     if (std::exchange(scene_, opened.scene()) != opened.scene()) camera_ = scene::OrbitCamera(opening_camera(), kOrbit);
     draw_tools(opened.scene() != nullptr, opened.document().has_grating(), has_saved_, light, view, controls);
     const ImVec2 corner = ImGui::GetCursorScreenPos();

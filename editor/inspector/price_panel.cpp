@@ -148,12 +148,12 @@ void draw_slider(Measurement& measurement, const Document& document, const Price
 }
 
 void draw_film(const thin_film::FilmTable& table, double frame_ms, ControlMap& controls) {
-    draw_row("Representation", "a table over angle, thickness and roughness");
+    draw_row("Representation", "table over angle, thickness and roughness");
     draw_row("Nodes", fmt::format("{} × {} × {}", table.columns, table.rows, table.layers));
     draw_row("Tables", fmt::format("{} ({} B)", byte_count(table.bytes()), table.bytes()));
     const std::string error =
         fmt::format("{:.2g} % RMS, {:.2g} % at most", 100.0 * table.error.rms, 100.0 * table.error.largest);
-    draw_row("Measured error", error + ", between the table's nodes");
+    draw_row("Measured error", error);
     draw_frame_time(frame_ms);
     controls.note("film's error", error);
 }

@@ -72,7 +72,7 @@ void View::draw(glm::ivec2 size, const scene::Camera& camera, bool with_saved, f
                        .object = object_,
                        .light = light_.current(),
                        .surfaces = surfaces(false),
-                       .saved = with_saved && document_.saved() ? std::optional(surfaces(true)) : std::nullopt,
+                       .saved = with_saved && document_.surface(true) ? std::optional(surfaces(true)) : std::nullopt,
                        .grooves_of = shows_grooves ? std::optional(chosen) : std::nullopt,
                        .glare_of = looks_through ? std::optional(chosen) : std::nullopt});
     });

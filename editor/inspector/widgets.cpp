@@ -67,7 +67,15 @@ glm::dvec3 in_gamut(const glm::dvec3& xyz) {
 void draw_row(const char* name, const std::string& value) {
     ImGui::TextDisabled("%s", name);
     ImGui::SameLine(8.0F * ImGui::GetFontSize());
+    ImGui::PushTextWrapPos();
     ImGui::TextUnformatted(value.c_str());
+    ImGui::PopTextWrapPos();
+}
+
+void continue_line(float letters) {
+    const float right = ImGui::GetWindowPos().x + ImGui::GetWindowContentRegionMax().x;
+    const float end = ImGui::GetItemRectMax().x + ImGui::GetStyle().ItemSpacing.x + letters * ImGui::GetFontSize();
+    if (end <= right) ImGui::SameLine();
 }
 
 ImU32 series_colour(std::size_t index, float alpha) {

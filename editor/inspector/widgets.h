@@ -20,6 +20,9 @@ ImU32 series_colour(std::size_t index, float alpha = 1.0F);
 /// Draws a name and its value in two columns.
 void draw_row(const char* name, const std::string& value);
 
+/// Continues the line of the last control if `letters` more fit; a narrow tile has several lines of tools.
+void continue_line(float letters);
+
 inline constexpr ImU32 kPlotWords = IM_COL32(205, 205, 205, 255);
 
 struct PlotAxis {

@@ -161,7 +161,12 @@ std::vector<Command> Workbench::commands() {
          {},
          [this] { dialogs_.ask_unsaved([this] { session_.opened.close_scene(); }); },
          session_.opened.document().is_scene()},
-        {"File", "Open in the demo", {}, {}, [this] { session_.open_in_demo(); }},
+        {"File",
+         "Open in the demo",
+         {},
+         {},
+         [this] { session_.open_in_demo(); },
+         document.is_scene() || document.has_grating()},
         {"File", ""},
         {"File", "Quit", "Ctrl+Q", Key::Q, [this] { ask_to_close(); }},
         {"Edit", "Undo", "Ctrl+Z", Key::Z, [&document] { document.undo(); }, document.can_undo()},
@@ -188,7 +193,7 @@ std::vector<Command> Workbench::commands() {
     const std::vector<Command> view_and_help = {
         {"View", ""},
         {"View", "Compare with saved", "F6", Key::F6, [this] { preview_.comparing = !preview_.comparing; },
-         session_.opened.saved() != nullptr, preview_.comparing},
+         session_.opened.surface(true) != nullptr, preview_.comparing},
         {"View", "Show grooves", "G", Key::G, [this] { session_.view.shows_grooves = !session_.view.shows_grooves; },
          true, session_.view.shows_grooves},
         {"View", "Frame the selection", "F", Key::F, [this] { preview_.frame(session_.view); }},
@@ -255,7 +260,7 @@ void Workbench::draw_tiles(const platform::InputState& input, const WorkbenchFra
     if (begin_tile("Physics", {frame.size.x - right, top}, {right, height}))
         draw_if_any([&] {
             session_.opened.document().has_film()
-                ? film_.draw(controls_)
+                ? film_.draw(session_.view, controls_)
                 : physics_.draw(session_.opened, session_.view, session_.measurement, controls_);
         });
     ImGui::End();

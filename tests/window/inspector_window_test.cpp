@@ -294,6 +294,10 @@ TEST_F(InspectorWindow, AFilmIsMadeFromNothingAttachedToASceneAndSaved) {
         user.drag(field, {40, 0});
         expect_change(field);
     }
+    user.click("/film/k revert");
+    expect_change("/film/k");
+    user.pick({0.5, 0.5});
+    EXPECT_THAT(user.facts().at("picked"), testing::MatchesRegex("[0-9]+ [0-9]+ [0-9]+"));
     user.click("/metal");
     user.click("/metal=Au");
     expect_change("/metal");
@@ -317,7 +321,6 @@ TEST_F(InspectorWindow, AFilmIsMadeFromNothingAttachedToASceneAndSaved) {
     user.click("/iridescenceThicknessTexture");
     user.click("/iridescenceThicknessTexture=texture");
     user.wait_for("busy", "no");
-    const std::string picture = user.facts().at("picture");
     user.click("remove");
     EXPECT_TRUE(material(user.facts()).is_null());
     user.key("ctrl+z");
@@ -332,6 +335,7 @@ TEST_F(InspectorWindow, AFilmIsMadeFromNothingAttachedToASceneAndSaved) {
     user.click("material slate");
     user.wait_for("chosen material", "slate");
     EXPECT_EQ(material(user.facts()), saved);
+    user.click("compare");
     EXPECT_EQ(user.leave(), 0);
 }
 

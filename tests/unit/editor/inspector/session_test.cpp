@@ -188,6 +188,11 @@ TEST_F(SessionTest, AFilmIsDrawnOnEveryShapeAndFollowsItsFields) {
         document().undo();
         EXPECT_EQ(drawn(), thick);
     }
+    session_.opened.save_as(path("film.json"));
+    document().set_value(field_at("/film/thickness_nm"), 0);
+    drawn();
+    draw(20, true);
+    EXPECT_NE(session_.view.preview().saved_display().read_rgba8(), display());
     EXPECT_EQ(session_.view.drawn_as(), nullptr) << "which is of gratings";
     EXPECT_FALSE(session_.measurement.busy());
     session_.open_preset("cd");
@@ -239,14 +244,14 @@ TEST_F(SessionTest, AGlossIsSeenInThePreviewAndTakenBack) {
 }
 
 TEST_F(SessionTest, WhatIsSavedIsDrawnInAnIdleInspector) {
-    draw_until([&] { return session_.view.ready() && session_.opened.saved(); }, true);
+    draw_until([&] { return session_.view.ready() && session_.opened.surface(true); }, true);
     document().set_value(field_at("/grating/pitch_nm"), 900);
     draw_until_cooked(900.0, true);
     draw(100, true);  // the picture is at rest
     const auto now = display();
     EXPECT_NE(session_.view.preview().saved_display().read_rgba8(), now);
     session_.opened.save();
-    draw_until([&] { return session_.opened.saved()->material.grating.pitch_nm == 900.0; }, true);
+    draw_until([&] { return session_.opened.surface(true)->material->material.grating.pitch_nm == 900.0; }, true);
     draw(3, true);
     EXPECT_EQ(session_.view.preview().saved_display().read_rgba8(), now);
 }
