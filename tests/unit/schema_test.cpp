@@ -278,7 +278,7 @@ TEST(Schema, GratingsOfTheShippedSceneAreOnesTheModuleReads) {
         varies = true;
         EXPECT_LT(static_cast<std::size_t>(grating.groove_texture->index), cabinet.textures.size());
     }
-    EXPECT_EQ(pitches.size(), 6U);
+    EXPECT_EQ(pitches.size(), 7U);
     EXPECT_TRUE(varies);
 }
 

@@ -1,0 +1,129 @@
+#!/usr/bin/env python3
+"""draw_maps.py FOLDER: draws again the maps of the beetle, the glitter card, the wooden tables and the oil that the
+scenes hold. Always the same bytes."""
+import math, pathlib, random, struct, sys, zlib
+
+FOLDER = pathlib.Path(sys.argv[1])
+STEP = 4  # of normals and roughness: small files
+
+
+def write_png(name, rows):
+    """rows: of texels, each a tuple of one or three bytes."""
+    def chunk(kind, body):
+        return struct.pack(">I", len(body)) + kind + body + struct.pack(">I", zlib.crc32(kind + body))
+
+    data = b"".join(b"\0" + bytes(value for texel in row for value in texel) for row in rows)
+    head = struct.pack(">IIBBBBB", len(rows[0]), len(rows), 8, 2 if len(rows[0][0]) == 3 else 0, 0, 0, 0)
+    (FOLDER / name).write_bytes(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", head) + chunk(b"IDAT", zlib.compress(data, 9))
+                                + chunk(b"IEND", b""))
+
+
+def byte(x):
+    return min(max(round(255 * x), 0), 255)
+
+
+def map_of(height, width, texel):
+    return [[texel(column / width, row / height) for column in range(width)] for row in range(height)]
+
+
+def write_normals(name, heights, strength):
+    """heights: rows of texels, which repeat in both directions. Green points up, as glTF's."""
+    rows, columns = len(heights), len(heights[0])
+
+    def texel(x, y):
+        slope_x = strength * (heights[y][(x + 1) % columns] - heights[y][x - 1])
+        slope_y = strength * (heights[(y + 1) % rows][x] - heights[y - 1][x])
+        length = math.sqrt(slope_x**2 + slope_y**2 + 1.0)
+        return tuple(min(128 + STEP * round(128 / STEP * n / length), 255) for n in (-slope_x, slope_y, 1.0))
+
+    write_png(name, [[texel(x, y) for x in range(columns)] for y in range(rows)])
+
+
+def dent(heights, x, y, half_x, half_y, depth):
+    """A round dent of these half axes in texels, with a low rim."""
+    rows, columns = len(heights), len(heights[0])
+    for row in range(math.floor(y - 2 * half_y), math.ceil(y + 2 * half_y) + 1):
+        for column in range(math.floor(x - 2 * half_x), math.ceil(x + 2 * half_x) + 1):
+            r = math.hypot((column - x) / half_x, (row - y) / half_y)
+            heights[row % rows][column % columns] -= depth * (math.exp(-2 * r * r) - 0.25 * math.exp(-2 * (r - 1.3) ** 2))
+
+
+def beetle():
+    """Two of the eight intervals between striae, 64 texels wide; a stria has 46 punctures along the body. The leather of
+    the body."""
+    random.seed(9)
+    case = [[0.0] * 128 for _ in range(1024)]
+    for stria in range(2):
+        for i in range(46):
+            dent(case, 64 * stria + random.gauss(0, 1.5), (i + random.uniform(-0.2, 0.2)) * 1024 / 46,
+                 random.uniform(5.0, 6.5), random.uniform(5.5, 7.5), random.uniform(2.0, 3.4))
+    for _ in range(130):
+        dent(case, random.uniform(0, 128), random.uniform(0, 1024), 2.2, 2.2, random.uniform(0.3, 0.8))
+    write_normals("beetle_wing_case.png", case, 0.5)
+    random.seed(4)
+    body = [[0.0] * 128 for _ in range(128)]
+    for _ in range(375):
+        size = random.uniform(1.6, 4.0)
+        dent(body, random.uniform(0, 128), random.uniform(0, 128), size, size, 0.16 * size)
+    write_normals("beetle_body.png", body, 0.5)
+
+
+def glitter():
+    """A facet a texel: 32 directions of its grooves; 15 % are bare."""
+    random.seed(21)
+    write_png("glitter_grooves.png", [[(8 * random.randrange(32), 128 if random.random() < 0.85 else 0, 0)
+                                       for _ in range(256)] for _ in range(256)])
+
+
+def waves(seed, count, highest_x, highest_y):
+    """A smooth random function that repeats from 0 to 1 in both directions, of about ±1."""
+    random.seed(seed)
+    terms = [(random.randint(-highest_x, highest_x), random.randint(1, highest_y), random.uniform(0, 2 * math.pi))
+             for _ in range(count)]
+    return lambda x, y: sum(math.sin(2 * math.pi * (a * x + b * y) + c) for a, b, c in terms) / math.sqrt(count / 2)
+
+
+def wood():
+    """Boards of walnut, their grain along u; pores as dents and rougher."""
+    bend, streak, cloud = waves(1, 6, 1, 3), waves(2, 24, 3, 90), waves(3, 8, 3, 9)
+
+    def colour(x, y):
+        board = math.floor(5 * y)
+        seam = min(abs(5 * y - board), abs(5 * y - board - 1)) < 0.012
+        x += 0.37 * board
+        ring = 0.5 + 0.5 * math.sin(2 * math.pi * (17 * y + 0.37 * board + 1.1 * bend(x, y)))
+        tone = 0.5 + 0.22 * (ring**3 - 0.35) + 0.1 * streak(x, y) + 0.09 * cloud(x, y) + 0.12 * math.sin(2.4 * board)
+        tone = 0 if seam else min(max(tone, 0), 1)
+        return tuple(byte(dark + tone * (light - dark)) for dark, light in ((0.25, 0.56), (0.15, 0.37), (0.1, 0.24)))
+
+    write_png("wood.png", map_of(512, 1024, colour))
+    random.seed(5)
+    size = 512
+    heights = [[0.0] * size for _ in range(size)]
+    for _ in range(1500):
+        dent(heights, random.uniform(0, size), random.uniform(0, size), random.uniform(5, 22), random.uniform(0.7, 1.2),
+             random.uniform(0.3, 1.3))
+    write_normals("wood_normals.png", heights, 0.35)
+    smear = waves(6, 8, 3, 3)
+    write_png("wood_gloss.png", [[(255, STEP * (byte(0.35 + 0.012 * smear(x / size, y / size)
+                                                     - 0.25 * min(heights[y][x], 0)) // STEP), 0)
+                                  for x in range(size)] for y in range(size)])
+
+
+def oil():
+    """Thickness of oil that spreads on water, in its green channel: stirred, thin at its edge, none beyond."""
+    stir_x, stir_y, depth, edge = waves(11, 6, 2, 2), waves(12, 6, 2, 2), waves(13, 6, 3, 3), waves(14, 8, 3, 3)
+
+    def thickness(x, y):
+        r = 2 * math.hypot(x - 0.5, y - 0.5)
+        inside = min(max((0.82 + 0.07 * edge(x, y) - r) / 0.02, 0), 1)
+        for _ in range(5):
+            x, y = x + 0.018 * stir_x(x, y), y + 0.018 * stir_y(x, y)
+        r = 2 * math.hypot(x - 0.47, y - 0.54)
+        return (0, byte(inside * max(0.68 - 0.62 * r + 0.07 * depth(x, y), 0.12)), 0)
+
+    write_png("oil_thickness.png", map_of(512, 512, thickness))
+
+
+for draw in (beetle, glitter, wood, oil):
+    draw()
