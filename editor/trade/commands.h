@@ -23,4 +23,7 @@ void add_sweep_commands(CLI::App& program, const std::string& command_line);
 /// `films`: a picture of the colours of thin films, and the errors of common formulas.
 void add_films_command(CLI::App& program);
 
+/// `rigorous`: efficiencies of a material's orders by Maxwell's equations, as CSV.
+void add_rigorous_command(CLI::App& program);
+
 }  // namespace rowland::trade

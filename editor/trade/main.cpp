@@ -199,6 +199,7 @@ int main(int argc, char** argv) {
         rowland::trade::add_sweep_commands(program,
                                            rowland::trade::command_line({argv, static_cast<std::size_t>(argc)}));
         rowland::trade::add_films_command(program);
+        rowland::trade::add_rigorous_command(program);
         rowland::parse_command_line(program, argc, argv);
         return 0;
     });

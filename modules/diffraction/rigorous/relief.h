@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "modules/diffraction/model/grating.h"
+#include "modules/diffraction/model/profile.h"
+
+namespace rowland::diffraction {
+
+/// A transparent film on a relief.
+struct DielectricFilm {
+    double ior = 1.5;  ///< n at all wavelengths, 1 to 4
+    double thickness_nm = 0.0;
+};
+
+inline constexpr std::size_t kMaximumFilms = 4;
+
+/// A relief that the rigorous solver knows: periodic along g, uniform along h, on a substrate whose index is given with
+/// the wavelength. A depth of 0 is a flat surface.
+///
+/// Films follow the relief. On a sinusoidal one each surface of a film is the relief's moved up by the thickness. On a
+/// blazed one films are equally thick on both facets, measured at right angles to them. On a lamellar one they lie on
+/// bars and groove floors, but not on the vertical walls.
+struct Relief {
+    double pitch_nm = 0.0;
+    std::variant<LamellarProfile, SinusoidalProfile, BlazedProfile> shape;
+    std::vector<DielectricFilm> films;  ///< from the substrate up
+    double ambient_ior = 1.0;           ///< of the medium that the light comes from, ≥ 1
+};
+
+/// Checks what solve() requires. Throws Error (input) that calls the relief `name`: pitch not in (0, 1e5] nm, depth not
+/// in [0, 4 pitches], duty not in (0, 1), an ambient index outside 1 to 4, more than kMaximumFilms films, a film
+/// thicker than the pitch or with an index outside 1 to 4.
+void check_relief(const Relief& relief, const std::string& name);
+
+/// The relief of a grating, without films: lamellar, sinusoidal or blazed grooves of a metal, in air or under its
+/// cover. Throws Error (input) that calls it `name` for any other grating.
+Relief relief_of(const Grating& grating, const std::string& name);
+
+}  // namespace rowland::diffraction

@@ -1,0 +1,73 @@
+#pragma once
+
+#include <complex>
+#include <string>
+#include <vector>
+
+#include "modules/diffraction/rigorous/relief.h"
+
+namespace rowland::diffraction {
+
+/// Efficiencies of one polarisation or the mean of both.
+enum class Light { TE, TM, Unpolarised };
+
+/// What one solve gives: light from every s_g + kλ/d that propagates, into every order.
+///
+/// All directions are g components in air: light from s_g = −v_g[i] that leaves as v_g[j] is of order j − i. In an
+/// ambient medium of index n directions up to |v_g| < n propagate; those of |v_g| > 1 do not leave it into air.
+class OrderEfficiencies {
+ public:
+    std::vector<double> v_g;              ///< of what is reflected, ascending in steps of λ/d
+    std::vector<double> transmitted_v_g;  ///< the same in a transparent substrate: v_g up to its index
+    int first = 0;                        ///< order of v_g[0] for light from the s_g that was asked for
+    int transmitted_first = 0;
+
+    /// η of `order` for light from s_g − kλ/d, the order counted from that light; 0 where it or the light does not
+    /// propagate.
+    double reflected(int order, Light light = Light::Unpolarised, int k = 0) const;
+    double transmitted(int order, Light light = Light::Unpolarised, int k = 0) const;
+    /// Sum over everything that leaves, for light from s_g − kλ/d. 1 minus this is absorbed.
+    double sum(Light light, int k = 0) const;
+
+    std::vector<double> reflected_te, reflected_tm;      ///< row i: light from −v_g[i]; column j: into v_g[j]
+    std::vector<double> transmitted_te, transmitted_tm;  ///< row i as above; column j: into transmitted_v_g[j]
+};
+
+/// The largest truncation that solve() takes: 2 s for a lamellar relief.
+inline constexpr int kMaximumTruncation = 160;
+
+/// Rigorous efficiencies of classical incidence (s_h = 0), from 2 `truncation` + 1 orders: Maxwell's equations up to
+/// the truncation. A lamellar relief is solved by the Fourier modal method with adaptive spatial resolution, others by
+/// the coordinate-transformation method. |s_g| < 1 in air, substrate n + ik with k ≥ 0. Orders beyond
+/// the truncation are left out. Throws Error (input) as check_relief() does, and for another s_g or index.
+OrderEfficiencies solve(const Relief& relief, std::complex<double> substrate_index, double wavelength_nm, double s_g,
+                        int truncation);
+
+/// The smallest truncation that is worth trying: all that propagates, and what the relief's shape needs.
+int first_truncation(const Relief& relief, std::complex<double> substrate_index, double wavelength_nm);
+
+/// How far a sum of efficiencies may exceed 1: a lossless relief has 1.
+inline constexpr double kSumTolerance = 1e-6;
+
+struct Converged {
+    OrderEfficiencies efficiencies;
+    int truncation = 0;
+    int added = 0;       ///< so much larger than the truncation before
+    double error = 0.0;  ///< largest change of any efficiency between the two
+};
+
+/// Raises the truncation until no efficiency of light from s_g changes by more than `tolerance` and their sum is at
+/// most 1 + kSumTolerance. Throws Error (input) that states how far from that it is at kMaximumTruncation, and what to
+/// change.
+Converged solve_converged(const Relief& relief, std::complex<double> substrate_index, double wavelength_nm, double s_g,
+                          double tolerance = 5e-4);
+
+/// The classical problem whose efficiencies approximate those of light from (s_g, s_h), |s| < 1: the same relief at
+/// this wavelength and s_g, with the substrate's index at the true wavelength (PHYSICS §14).
+struct ClassicalIncidence {
+    double wavelength_nm = 0.0;
+    double s_g = 0.0;
+};
+ClassicalIncidence classical_incidence(double ambient_ior, double wavelength_nm, double s_g, double s_h);
+
+}  // namespace rowland::diffraction
