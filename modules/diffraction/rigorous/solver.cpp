@@ -124,7 +124,8 @@ int first_truncation(const Relief& relief, std::complex<double> substrate_index,
     for (const DielectricFilm& film : relief.films) index = std::max(index, film.ior);
     const double stretch =
         std::visit([&](const auto& shape) { return largest_stretch(shape, relief.pitch_nm); }, relief.shape);
-    return static_cast<int>(std::ceil(stretch * index * relief.pitch_nm / wavelength_nm)) + 5;
+    const int margin = std::holds_alternative<LamellarProfile>(relief.shape) ? 9 : 5;
+    return static_cast<int>(std::ceil(stretch * index * relief.pitch_nm / wavelength_nm)) + margin;
 }
 
 Converged solve_converged(const Relief& relief, std::complex<double> substrate_index, double wavelength_nm, double s_g,

@@ -275,6 +275,33 @@ TEST_F(TradeProgram, WrongUsageExitsWith2AndSaysWhy) {
     EXPECT_THAT(refusal("evaluate --material none.json --method spikes" + light), HasSubstr("none.json"));
 }
 
+/// A row of the converged table of this grating (test data, 380 nm, 0°), whose digits are printed there.
+TEST_F(TradeProgram, RigorousPrintsEveryOrderThatPropagates) {
+    const auto material = [&](const std::string& pitch, const std::string& profile) {
+        write("m.json", R"({"grating": {"pitch_nm": )" + pitch + R"(, "profile": )" + profile + R"(}, "metal": "Al"})");
+    };
+    const auto refusal = [&](const std::string& arguments) {
+        const test::Ended outcome = run("rigorous m.json --wavelength-nm 550 " + arguments);
+        EXPECT_EQ(outcome.code, 2) << outcome.err;
+        EXPECT_EQ(outcome.out, "");
+        return outcome.err;
+    };
+    material("740", R"({"type": "lamellar", "duty": 0.43, "depth_nm": 100})");
+    const test::Csv orders = table(run("rigorous m.json --wavelength-nm 380 --s-g 0"));
+    EXPECT_EQ(orders.header, (std::vector<std::string>{"order", "TE", "TM", "mean"}));
+    ASSERT_EQ(orders.rows.size(), 3U);
+    EXPECT_EQ(orders.text(0, "order"), "-1");
+    EXPECT_NEAR(orders.number(0, "mean"), 0.447281, 1e-3);
+    EXPECT_NEAR(orders.number(1, "mean"), 0.016040, 1e-3);
+    EXPECT_NEAR(orders.number(1, "TE") + orders.number(1, "TM"), 2.0 * orders.number(1, "mean"), 1e-8);
+    EXPECT_THAT(refusal("--s-g 0.9 --s-h 0.5"), HasSubstr("a direction above the surface"));
+    EXPECT_THAT(refusal("--s-g 0 --film 1.6 741"), HasSubstr("thicker than the pitch"));
+    material("270", R"({"type": "blazed", "depth_nm": 100})");
+    EXPECT_THAT(refusal("--s-g 0"), HasSubstr("from no direction in this plane does an order but 0 propagate"));
+    material("1600", R"({"type": "slit", "width_nm": 800})");
+    EXPECT_THAT(refusal("--s-g 0"), HasSubstr("lamellar, sinusoidal or blazed grooves of a metal"));
+}
+
 TEST_F(TradeProgram, FewGroovesAreRefusedBySpikesAlone) {
     write_simple_inputs();
     write("few.json", R"({"grating": {"pitch_nm": 1600, "grooves": 8, "profile": {"type": "slit", "width_nm": 800}}})");
