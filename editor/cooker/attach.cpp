@@ -170,7 +170,7 @@ void attach(const cook::Registry& registry, const AttachOptions& options) {
     if (options.attached.empty() && options.removed.empty())
         refuse_input("--material, --remove", {}, "neither", "at least one of them", "see rowland-cook attach --help");
     if ((options.rotation_deg || options.texture) && options.attached.size() != 1)
-        refuse_input("--groove-rotation-deg, --groove-texture", {},
+        refuse_input("--groove-rotation-deg, --groove-texture, --thickness-texture", {},
                      fmt::format("{} materials", options.attached.size()), "one --material",
                      "call attach once for each material");
     cook::as_refusal_of(options.scene, [&] { Attachment(registry, options).run(); });

@@ -55,14 +55,15 @@ void draw_swatch(const FilmCurves& curves, double thickness_nm) {
     const FilmColours& colours = curves.over_thickness;
     double top = 1e-9;
     for (const glm::dvec3& xyz : colours.exact) top = std::max(top, xyz.y);
+    const double thinnest_nm = curves.thicknesses_nm.front();
     const double thickest_nm = curves.thicknesses_nm.back();
     const double rows = colours.formula.empty() ? 2.0 : 3.0;
-    const Plot plot("##film swatch", curve_height(), {0.0, thickest_nm, "thickness, nm"}, {0.0, rows, ""});
-    const double step = thickest_nm / static_cast<double>(curves.thicknesses_nm.size());
+    const Plot plot("##film swatch", curve_height(), {thinnest_nm, thickest_nm, "thickness, nm"}, {0.0, rows, ""});
+    const double step = (thickest_nm - thinnest_nm) / static_cast<double>(curves.thicknesses_nm.size());
     double height = rows;
     for (const std::vector<glm::dvec3>* row : {&colours.exact, &colours.table, &colours.formula}) {
         for (std::size_t i = 0; i < row->size(); ++i) {
-            const double begin = step * static_cast<double>(i);
+            const double begin = thinnest_nm + step * static_cast<double>(i);
             plot.bar(begin, begin + step, height, screen_colour_u32((*row)[i] / top));
         }
         height -= 1.0;

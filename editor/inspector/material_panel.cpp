@@ -387,7 +387,8 @@ void ScenePanel::draw_list(OpenDocument& opened, ControlMap& controls) {
             if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", meshes_text(scene.materials[i]).c_str());
             ImGui::SameLine(0.0F, 0.0F);
             const ImVec2 at = ImGui::GetCursorScreenPos();
-            ImGui::PushClipRect(at, {at.x + grating_column - 0.4F * ImGui::GetFontSize(), at.y + row}, true);
+            const float right = ImGui::GetWindowPos().x + grating_column - 0.4F * ImGui::GetFontSize();
+            ImGui::PushClipRect(at, {right, at.y + row}, true);
             ImGui::TextUnformatted(name.c_str());
             ImGui::PopClipRect();
             ImGui::SameLine(grating_column);

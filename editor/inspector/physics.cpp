@@ -92,8 +92,8 @@ diffraction::PointShader harmonics_shader(const diffraction::Material& material,
 }
 
 constexpr int kAngles = 86;        ///< 0 to 85 degrees
-constexpr int kThicknesses = 161;  ///< every 5 nm, of films that are not thicker than the next
-constexpr double kThickness_nm = 800.0;
+constexpr int kThicknesses = 161;  ///< every 5 nm
+constexpr double kThicknesses_nm = 800.0;
 
 double cosine_of(double angle_deg) {
     return std::cos(angle_deg * std::numbers::pi / 180.0);
@@ -104,10 +104,11 @@ class FilmModels {
  public:
     explicit FilmModels(const FilmInputs& inputs)
         : inputs_(inputs),
-          thickest_nm_(std::max(kThickness_nm, inputs.film.layers.front().thickness_nm)),
+          thickest_nm_(std::max(kThicknesses_nm, inputs.film.layers.front().thickness_nm)),
+          thinnest_nm_(thickest_nm_ - kThicknesses_nm),
           colour_(inputs.film, colour::LightSpectra(colour::illuminant(inputs.illuminant))),
           base_f0_(thin_film::normal_colour(inputs.film.base)) {
-        if (inputs.roughness > 0.0) rough_.emplace(colour_, 0.0, thickest_nm_);
+        if (inputs.roughness > 0.0) rough_.emplace(colour_, thinnest_nm_, thickest_nm_);
     }
 
     /// At one angle, for several thicknesses.
@@ -129,17 +130,18 @@ class FilmModels {
                thin_film::gltf_formula(colour_.film().layers.front().index.real(), thickness_nm, base_f0_, cosine);
     }
     thin_film::FilmTable table() const {
-        const thin_film::TableRange range{.thinnest_nm = 0.0,
+        const thin_film::TableRange range{.thinnest_nm = thinnest_nm_,
                                           .thickest_nm = thickest_nm_,
                                           .smoothest = inputs_.roughness,
                                           .roughest = inputs_.roughness};
         return thin_film::bake_table(colour_, range, thin_film::table_size(range));
     }
-    double thickest_nm() const { return thickest_nm_; }
+    double thinnest_nm() const { return thinnest_nm_; }
 
  private:
     FilmInputs inputs_;
     double thickest_nm_;
+    double thinnest_nm_;
     thin_film::FilmColour colour_;
     glm::dvec3 base_f0_;
     std::optional<thin_film::RoughFilm> rough_;
@@ -163,7 +165,7 @@ FilmCurves without_table(const FilmInputs& inputs, const FilmModels& models) {
         if (has_formula) curves.over_angle.formula.push_back(models.formula(at, thickness_nm));
     }
     for (int i = 0; i < kThicknesses; ++i) {
-        curves.thicknesses_nm.push_back(models.thickest_nm() * i / (kThicknesses - 1));
+        curves.thicknesses_nm.push_back(models.thinnest_nm() + kThicknesses_nm * i / (kThicknesses - 1));
         if (has_formula) curves.over_thickness.formula.push_back(models.formula(cosine, curves.thicknesses_nm.back()));
     }
     curves.over_thickness.exact = models.exact(cosine, curves.thicknesses_nm);

@@ -159,7 +159,7 @@ struct FilmCurves {
     std::vector<glm::dvec2> bare;      ///< likewise without the film
     std::vector<double> angles_deg;
     FilmColours over_angle;
-    std::vector<double> thicknesses_nm;  ///< of the outermost layer: 0 to 800, or its own if it is thicker
+    std::vector<double> thicknesses_nm;  ///< of the outermost layer: 0 to 800, or to its own if it is thicker
     FilmColours over_thickness;          ///< at the angle
     bool complete = false;               ///< the table is baked; its colours are empty before
     double table_error = 0.0;            ///< over_thickness against the exact sum, relative RMS

@@ -254,8 +254,10 @@ void Workbench::draw_tiles(const platform::InputState& input, const WorkbenchFra
     }
     ImGui::End();
     const auto draw_if_any = [this](const auto& draw) {
-        session_.opened.document().accepted() ? draw()
-                                              : ImGui::TextDisabled("The chosen material has no grating or film.");
+        if (session_.opened.document().accepted()) return draw();
+        ImGui::PushTextWrapPos();
+        ImGui::TextDisabled("The chosen material has no grating or film.");
+        ImGui::PopTextWrapPos();
     };
     if (begin_tile("Physics", {frame.size.x - right, top}, {right, height}))
         draw_if_any([&] {

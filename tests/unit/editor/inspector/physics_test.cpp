@@ -366,6 +366,13 @@ TEST(FilmCurves, OfNoFilmAreThoseOfTheBase) {
     EXPECT_NEAR(bare.over_angle.exact.front().y, 0.04, 1e-4);
 }
 
+TEST(FilmCurves, OfAThickFilmAreThoseOfItsLast800Nanometres) {
+    const auto curves = curves_of({.film = {.layers = {{.thickness_nm = 5000.0}}, .base = colour::Metal::Al}});
+    EXPECT_EQ(curves.thicknesses_nm.front(), 5000.0 - 800.0);
+    EXPECT_EQ(curves.thicknesses_nm.back(), 5000.0);
+    EXPECT_EQ(curves.over_thickness.exact.back(), curves.over_angle.exact.front());
+}
+
 TEST(FilmCurves, AreShownWithoutTheTableFirstAndStopWhenAsked) {
     std::stop_source stop;
     bool shown = false;
