@@ -85,8 +85,8 @@ inline constexpr const char* kMaterialSamplers = "MATERIAL_SAMPLERS";
 /// An upper bound of the samplers of a program's fragment stage.
 int fragment_samplers(const gpu::ProgramDesc& desc);
 /// Adds the defines to a program's own, which win. Where that took more than kGuaranteedSamplers, as all six maps with
-/// all effects can, the surface does not mirror the objects around it, then does not average its mirror over pixels, and
-/// then shows no wear.
+/// all effects can, the surface does not mirror the objects around it, then does not average its mirror over pixels,
+/// and then shows no wear.
 void add_defines(SurfaceFeatures features, gpu::ProgramDesc& desc);
 
 /// Programs by description, each compiled on first use.

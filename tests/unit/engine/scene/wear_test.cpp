@@ -121,8 +121,12 @@ TEST(GltfWear, EqualWearIsOneTexture) {
 }
 
 TEST(GltfWear, ABlackMaskLeavesNothing) {
-    const ImportedScene scene = load(with_wear({{"dust", 1.0}, {"maskTexture", {{"index", 0}}}}));
-    EXPECT_EQ(mean_coverage(*scene.images[scene.textures[1].image]), glm::dvec3(0.0));
+    json file = with_wear({{"dust", 1.0}});
+    file["materials"][1]["extensions"]["ROWLAND_materials_wear"]["maskTexture"] = {{"index", 0}};
+    const ImportedScene scene = load(file);
+    ASSERT_EQ(scene.textures.size(), 3U);
+    EXPECT_GT(mean_coverage(*scene.images[scene.textures[1].image]).x, 0.01);
+    EXPECT_EQ(mean_coverage(*scene.images[scene.textures[2].image]), glm::dvec3(0.0));
 }
 
 TEST(GltfWear, WhatIsNoWearIsRefused) {
