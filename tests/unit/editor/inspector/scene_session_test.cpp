@@ -177,11 +177,11 @@ TEST_F(SceneSession, AFoilPatternVariesTheGroovesOfItsMaterial) {
 TEST_F(SceneSession, AFilmIsAttachedEditedVariedByAPictureSavedAndOpenedAgainAsItWas) {
     draw_until_open();
     session_.view.pick({0.3, 0.5});
-    draw(20);
+    draw(4);
     const auto bare = picture();
     const auto drawn = [&] {
         draw_until([&] { return !session_.opened.busy(); });
-        draw(20);
+        draw(4);
         return picture();
     };
     session_.open_preset("anodised_titanium");

@@ -175,7 +175,7 @@ TEST_F(SessionTest, AFilmIsDrawnOnEveryShapeAndFollowsItsFields) {
     EXPECT_EQ(session_.view.shape(), PreviewShape::Sphere);
     const auto drawn = [&] {
         draw_until([&] { return session_.view.ready() && session_.opened.film() && !session_.opened.busy(); });
-        draw(20);
+        draw(4);
         return picture();
     };
     drawn();
@@ -191,7 +191,7 @@ TEST_F(SessionTest, AFilmIsDrawnOnEveryShapeAndFollowsItsFields) {
     session_.opened.save_as(path("film.json"));
     document().set_value(field_at("/film/thickness_nm"), 0);
     drawn();
-    draw(20, true);
+    draw(4, true);
     EXPECT_NE(session_.view.preview().saved_display().read_rgba8(), display());
     EXPECT_EQ(session_.view.drawn_as(), nullptr) << "which is of gratings";
     EXPECT_FALSE(session_.measurement.busy());
