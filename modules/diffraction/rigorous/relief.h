@@ -28,7 +28,7 @@ struct Relief {
     double pitch_nm = 0.0;
     std::variant<LamellarProfile, SinusoidalProfile, BlazedProfile> shape;
     std::vector<DielectricFilm> films = {};  ///< from the substrate up
-    double ambient_ior = 1.0;           ///< of the medium that the light comes from, ≥ 1
+    double ambient_ior = 1.0;                ///< of the medium that the light comes from, ≥ 1
 };
 
 /// Checks what solve() requires. Throws Error (input) that calls the relief `name`: pitch not in (0, 1e5] nm, depth not

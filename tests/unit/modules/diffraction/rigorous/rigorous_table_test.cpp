@@ -54,9 +54,10 @@ void compare(const TableCase& one, std::size_t stride) {
             const int order = std::stoi(csv.header[column].substr(1));
             const double expected = csv.number(row, csv.header[column]);
             const double actual = solved.reflected(order);
-            if (s_h == 0.0)
+            if (s_h == 0.0) {
                 EXPECT_NEAR(actual, expected, one.tolerance)
                     << wavelength_nm << " nm, s_g " << s_g << ", order " << order;
+            }
             squares[s_h] += expected * expected;
             differences[s_h] += (actual - expected) * (actual - expected);
         }
