@@ -24,7 +24,7 @@ using Eigen::VectorXd;
 constexpr double kStretchAtWalls = 0.01;
 
 /// The fraction of a period of u that the bar takes: between its own and one half, so that narrow parts are resolved.
-double bar_share(double duty) {
+double bar_fraction(double duty) {
     return (0.5 + duty) / 2.0;
 }
 
@@ -43,7 +43,7 @@ double part_coefficient(double width, double delta, int n) {
 }
 
 StretchedBasis stretched_basis(double duty, const VectorXd& alpha) {
-    const double delta = bar_share(duty);
+    const double delta = bar_fraction(duty);
     const auto size = alpha.size();
     MatrixXd bars(size, size);
     MatrixXd all(size, size);
@@ -119,7 +119,7 @@ Column column(const Relief& relief, Complex substrate, double height_nm) {
 }  // namespace
 
 double largest_stretch(const LamellarProfile& shape, double) {
-    const double delta = bar_share(shape.duty);
+    const double delta = bar_fraction(shape.duty);
     return 2.0 * std::max(shape.duty / delta, (1.0 - shape.duty) / (1.0 - delta));
 }
 

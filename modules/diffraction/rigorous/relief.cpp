@@ -52,7 +52,7 @@ Relief relief_of(const Grating& grating, const std::string& name) {
     if (grating.transmission)
         refuse_input(name, "/transmission", "a sheet that transmits", expected, "use scalar theory");
     if (!grating.metal) refuse_input(name, "/metal", "no metal", expected, "add \"metal\": \"Al\"");
-    Relief relief{.pitch_nm = grating.pitch_nm, .shape = {}, .films = {}, .ambient_ior = groove_medium(grating.cover)};
+    Relief relief{.pitch_nm = grating.pitch_nm, .shape = {}, .ambient_ior = groove_medium(grating.cover)};
     std::visit(
         [&](const auto& shape) {
             if constexpr (requires { relief.shape = shape; })

@@ -26,7 +26,7 @@ inline constexpr std::size_t kMaximumFilms = 4;
 /// bars and groove floors, but not on the vertical walls.
 struct Relief {
     double pitch_nm = 0.0;
-    std::variant<LamellarProfile, SinusoidalProfile, BlazedProfile> shape;
+    std::variant<LamellarProfile, SinusoidalProfile, BlazedProfile> shape = {};
     std::vector<DielectricFilm> films = {};  ///< from the substrate up
     double ambient_ior = 1.0;                ///< of the medium that the light comes from, ≥ 1
 };

@@ -136,21 +136,21 @@ Converged solve_converged(const Relief& relief, std::complex<double> substrate_i
     const auto refuse = [&](const std::string& found) {
         refuse_input("rigorous solver",
                      fmt::format("pitch {} nm, wavelength {} nm, s_g {}", relief.pitch_nm, wavelength_nm, s_g), found,
-                     fmt::format("changes of at most {} up to truncation {}", tolerance, last),
+                     fmt::format("changes of at most {} and a sum of at most 1 up to truncation {}", tolerance, last),
                      "reduce the depth or the pitch, allow a larger error, or use scalar theory");
     };
     if (truncation > kMaximumTruncation) refuse(fmt::format("at least {} orders to solve for", 2 * truncation + 1));
     Converged result{solve(relief, substrate_index, wavelength_nm, s_g, truncation), truncation};
-    double smallest = 1.0;
+    std::string distance;
     for (;;) {
         const int added = std::max(4, truncation / 8);
         truncation += added;
-        if (truncation > last) refuse(fmt::format("efficiencies that still change by {:.2g}", smallest));
+        if (truncation > last) refuse(distance);
         OrderEfficiencies next = solve(relief, substrate_index, wavelength_nm, s_g, truncation);
         const double change = largest_change(result.efficiencies, next);
         const double excess = std::max(next.sum(Light::TE), next.sum(Light::TM)) - 1.0;
         result = {std::move(next), truncation, added, change};
-        smallest = std::min(smallest, change);
+        distance = fmt::format("efficiencies that still change by {:.2g} and sum to {:.7g}", change, 1.0 + excess);
         if (change <= tolerance && excess <= kSumTolerance) return result;
     }
 }

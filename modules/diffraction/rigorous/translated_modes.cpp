@@ -64,7 +64,7 @@ Curve curve_of(const SinusoidalProfile& shape, double pitch_nm, int cells) {
 constexpr double kStretchAtEdges = 0.005;
 
 /// The fraction of a period of u that the short facet takes. Fitted: it makes the error smallest (MEASUREMENTS §14).
-double short_facet_share(double depth) {
+double short_facet_fraction(double depth) {
     return std::min(0.2 + 0.3 * depth, 0.5);
 }
 
@@ -76,15 +76,15 @@ Curve curve_of(const BlazedProfile& shape, double pitch_nm, int cells) {
     const double blaze = std::atan(depth);
     curve.translation = {-std::sin(pi / 4.0 - blaze / 2.0), std::cos(pi / 4.0 - blaze / 2.0)};
     curve.across_film = std::cos(pi / 4.0 + blaze / 2.0);
-    const double share = short_facet_share(depth);
-    const double edge = 1.0 - share;
+    const double fraction = short_facet_fraction(depth);
+    const double edge = 1.0 - fraction;
     add_nodes(curve, 0.0, edge, cells - cells / 2);
     add_nodes(curve, edge, 1.0, cells / 2);
     const auto size = curve.u.size();
     curve.x = curve.z = curve.dx = curve.dz = Eigen::ArrayXd::Zero(size);
     for (int i = 0; i < size; ++i) {
         const bool is_long = curve.u[i] < edge;
-        const double width = is_long ? 1.0 - share : share;
+        const double width = is_long ? 1.0 - fraction : fraction;
         const double turns = (is_long ? curve.u[i] : curve.u[i] - edge) / width;
         const double along = turns - (1.0 - kStretchAtEdges) * std::sin(2.0 * pi * turns) / (2.0 * pi);
         const double slope = (1.0 - (1.0 - kStretchAtEdges) * std::cos(2.0 * pi * turns)) / width;
@@ -185,7 +185,8 @@ double largest_stretch(const SinusoidalProfile& shape, double pitch_nm) {
 
 double largest_stretch(const BlazedProfile& shape, double pitch_nm) {
     const double depth = shape.depth_nm / pitch_nm;
-    return 2.0 * std::max(std::hypot(1.0, depth) / (1.0 - short_facet_share(depth)), depth / short_facet_share(depth));
+    return 2.0 *
+           std::max(std::hypot(1.0, depth) / (1.0 - short_facet_fraction(depth)), depth / short_facet_fraction(depth));
 }
 
 Stack translated_stack(const Relief& relief, Complex substrate, const Basis& basis) {

@@ -46,7 +46,7 @@ void expect_refusal(const Action& action, const std::vector<std::string>& parts)
 /// ½, 30°. The order that goes back toward the light is their −1. Granet & Guizal 1996 and Li & Haggans 1993 converge
 /// to the same numbers.
 TEST(RigorousSolver, MeetsThePrintedMetallicLamellarGrating) {
-    const Relief relief{.pitch_nm = 1000.0, .shape = LamellarProfile{0.5, 1000.0}, .films = {}};
+    const Relief relief{.pitch_nm = 1000.0, .shape = LamellarProfile{0.5, 1000.0}};
     const OrderEfficiencies solved = solve(relief, {0.22, 6.71}, 1000.0, 0.5, 30);
     EXPECT_NEAR(solved.reflected(0, Light::TM), 0.84848, 4e-5);
     EXPECT_NEAR(solved.reflected(1, Light::TE), 0.73428, 1e-5);
@@ -156,8 +156,7 @@ TEST(RigorousSolver, SaysHowFarItIsFromConvergence) {
         EXPECT_NEAR(solved.efficiencies.reflected(order), truth.reflected(order), solved.error);
     expect_refusal(
         [&] {
-            solve_converged({.pitch_nm = 50000.0, .shape = LamellarProfile{0.5, 100}, .films = {}}, kAluminium, 550.0,
-                            0.2);
+            solve_converged({.pitch_nm = 50000.0, .shape = LamellarProfile{0.5, 100}}, kAluminium, 550.0, 0.2);
         },
         {"orders to solve for", "reduce the depth or the pitch"});
     expect_refusal([&] { solve_converged(with_shape(kShapes[0]), Complex(0.05, 2.9), 400.0, 0.2, 1e-12); },
@@ -175,7 +174,7 @@ TEST(RigorousSolver, RefusesWhatHasNoSolution) {
             },
             {"profile/duty", "set the depth to 0"});
     expect_refusal([&] { refused(with_shape(BlazedProfile{-1})); }, {"profile/depth_nm"});
-    expect_refusal([&] { refused({.pitch_nm = 0.0, .shape = BlazedProfile{1}, .films = {}}); }, {"pitch_nm"});
+    expect_refusal([&] { refused({.pitch_nm = 0.0, .shape = BlazedProfile{1}}); }, {"pitch_nm"});
     expect_refusal(
         [&] {
             refused(with_shape(BlazedProfile{240}, {{1.5, 1101}}));
@@ -200,7 +199,7 @@ void try_random(unsigned seed, int count) {
     };
     int refused = 0;
     for (int i = 0; i < count; ++i) {
-        Relief relief{.pitch_nm = std::exp(draw(std::log(150.0), std::log(2500.0))), .shape = {}, .films = {}};
+        Relief relief{.pitch_nm = std::exp(draw(std::log(150.0), std::log(2500.0))), .shape = {}};
         const double depth_nm = relief.pitch_nm * std::pow(draw(0.0, 0.8), 2.0);
         const int kind = static_cast<int>(draw(0.0, 3.0));
         if (kind == 0) relief.shape = LamellarProfile{draw(0.02, 0.98), depth_nm};
@@ -216,9 +215,7 @@ void try_random(unsigned seed, int count) {
             const Converged solved = solve_converged(relief, substrate, wavelength_nm, s_g, 1e-2);
             for (const Light light : {Light::TE, Light::TM}) {
                 EXPECT_LE(solved.efficiencies.sum(light), 1.0 + 1e-6) << i;
-                if (substrate.imag() == 0.0) {
-                    EXPECT_NEAR(solved.efficiencies.sum(light), 1.0, 1e-2) << i;
-                }
+                EXPECT_GE(solved.efficiencies.sum(light), substrate.imag() == 0.0 ? 0.99 : 0.0) << i;
                 for (int order = -30; order <= 30; ++order) {
                     EXPECT_TRUE(std::isfinite(solved.efficiencies.reflected(order, light))) << i;
                     EXPECT_GE(solved.efficiencies.reflected(order, light), 0.0) << i;
@@ -238,7 +235,7 @@ TEST(RigorousSolver, RandomReliefsGiveFractionsOfTheLight) {
 }
 
 TEST(RigorousSlow, ManyRandomReliefsGiveFractionsOfTheLight) {
-    try_random(1951, 600);
+    try_random(1951, 200);
 }
 
 }  // namespace
