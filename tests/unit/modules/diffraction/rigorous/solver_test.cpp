@@ -43,8 +43,7 @@ void expect_refusal(const Action& action, const std::vector<std::string>& parts)
 }
 
 /// Lalanne & Hugonin 2000, JOSA A 17, 1033, tables 1 and 2, exact modal method: pitch, depth and wavelength 1 µm, duty
-/// ½, 30°. The order that goes back toward the light is their −1. Granet & Guizal 1996 and Li & Haggans 1993 converge
-/// to the same numbers.
+/// ½, 30°. The order that goes back toward the light is their −1.
 TEST(RigorousSolver, MeetsThePrintedMetallicLamellarGrating) {
     const Relief relief{.pitch_nm = 1000.0, .shape = LamellarProfile{0.5, 1000.0}};
     const OrderEfficiencies solved = solve(relief, {0.22, 6.71}, 1000.0, 0.5, 30);
