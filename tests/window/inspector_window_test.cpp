@@ -307,10 +307,10 @@ TEST_F(InspectorWindow, AFilmIsMadeFromNothingAttachedToASceneAndSaved) {
 
     user.drop(path("films.glb"));
     user.wait_for("document", "films.glb");
-    user.click("material slate");
-    user.wait_for("chosen material", "slate");
+    user.click("material walnut");
+    user.wait_for("chosen material", "walnut");
     user.drop(path("film.json"));
-    user.wait_for("message", "the film of slate");
+    user.wait_for("message", "the film of walnut");
     user.drag("/iridescenceThicknessMaximum", {40, 0});
     user.key("ctrl+z");
     user.drag("/iridescenceFactor", {-40, 0});
@@ -332,8 +332,8 @@ TEST_F(InspectorWindow, AFilmIsMadeFromNothingAttachedToASceneAndSaved) {
     user.key("ctrl+o");
     user.enter(path("films.glb"));
     user.wait_for("message", "6 with a grating or film");
-    user.click("material slate");
-    user.wait_for("chosen material", "slate");
+    user.click("material walnut");
+    user.wait_for("chosen material", "walnut");
     EXPECT_EQ(material(user.facts()), saved);
     user.click("compare");
     EXPECT_EQ(user.leave(), 0);

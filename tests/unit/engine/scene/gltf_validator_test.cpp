@@ -38,15 +38,15 @@ TEST(GltfValidator, FindsNothingWrongWithTheShippedScene) {
 }
 
 TEST(GltfValidator, FindsNothingWrongWithAnEditedScene) {
-    EditableGltf edited = EditableGltf::open(rowland::test::content_path("scenes/sheets.glb"));
+    EditableGltf edited = EditableGltf::open(rowland::test::content_path("scenes/cabinet.glb"));
     const std::size_t meshes = edited.outline().meshes.size();
-    ASSERT_GT(meshes, edited.outline().materials.size()) << "some share a material";
+    const std::size_t materials = edited.outline().materials.size();
     for (std::size_t mesh = 0; mesh < meshes; ++mesh)
         edited.set_material_extension(edited.own_material({mesh, 0}), "TEST_grooves",
                                       {{"texture",
                                         {{"index", edited.add_texture(golden_image(), "grooves", {{"wrapS", 33071}})},
                                          {"extensions", {{"KHR_texture_transform", {{"rotation", 1}}}}}}}});
-    EXPECT_GE(edited.outline().materials.size(), meshes);
+    EXPECT_GT(edited.outline().materials.size(), materials) << "some share a material";
     const int status = validate(edited.bytes());
     if (status == kNoValidator || status == kNoSuchCommand)
         GTEST_SKIP() << "node or its module gltf-validator is missing";
