@@ -90,7 +90,7 @@ constexpr Member map(const char* key, const char* target) {
     return {.key = key, .kind = Kind::Map, .most = std::numeric_limits<std::int32_t>::max(), .target = target};
 }
 
-constexpr std::int64_t kMaximumBytes = std::numeric_limits<std::int32_t>::max();
+constexpr std::int64_t kMaximumBytes = std::numeric_limits<std::uint32_t>::max();
 constexpr std::int64_t kMaximumCount = std::numeric_limits<std::int32_t>::max();
 constexpr std::int64_t kMaximumUvSet = 1 << 20;
 // Exporters round: what is a little over 1 is clamped.

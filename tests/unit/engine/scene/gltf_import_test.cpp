@@ -188,6 +188,8 @@ TEST(GltfImport, RangesAreCheckedWithoutOverflow) {
     EXPECT_THAT(with("bufferViews", "byteStride", 0), HasSubstr("/bufferViews/0/byteStride"));
     EXPECT_THAT(with("bufferViews", "buffer", 4294967296ULL), HasSubstr("/bufferViews/0/buffer"));
     EXPECT_THAT(with("buffers", "byteLength", 61), HasSubstr("/buffers/0"));
+    // GLB holds 32 bits of it.
+    EXPECT_THAT(with("buffers", "byteLength", 3000000000), HasSubstr("the 3000000000 bytes of byteLength"));
     EXPECT_THAT(with("buffers", "byteLength", 0), HasSubstr("/buffers/0/byteLength"));
     EXPECT_THAT(with("nodes", "mesh", 1), HasSubstr("/nodes/0/mesh"));
     EXPECT_THAT(with("nodes", "children", json::array({7})), HasSubstr("/nodes/0/children"));
