@@ -209,7 +209,7 @@ void decode(const std::vector<Encoded>& encoded, const std::string& file, std::v
         if (refusal) std::rethrow_exception(refusal);
 }
 
-/// Adds a texture for each different wear of the materials.
+/// Adds a texture for each different wear of the materials, drawn on all cores.
 void draw_wear(const std::string& file, ImportedScene& scene) {
     constexpr std::size_t kMaximumMaps = 16;
     std::vector<const MaterialDescription*> drawn;
@@ -225,13 +225,17 @@ void draw_wear(const std::string& file, ImportedScene& scene) {
         if (drawn.size() == kMaximumMaps)
             refuse_input(file, "/materials", fmt::format("more than {} different {}", kMaximumMaps, kWearExtension),
                          "fewer", "give materials the same wear");
-        image::ByteImage map = wear_map(*material.wear);
-        if (material.wear_mask) mask_wear(*scene.images[scene.textures[*material.wear_mask].image], map);
         material.wear_texture->texture = scene.textures.size();
-        scene.textures.push_back({.image = scene.images.size()});
-        scene.images.push_back(std::make_shared<const image::ByteImage>(std::move(map)));
+        scene.textures.push_back({.image = scene.images.size() + drawn.size()});
         drawn.push_back(&material);
     }
+    std::vector<SharedImage> maps(drawn.size());
+    parallel_for(drawn.size(), [&](std::size_t i) {
+        image::ByteImage map = wear_map(*drawn[i]->wear);
+        if (const auto mask = drawn[i]->wear_mask) mask_wear(*scene.images[scene.textures[*mask].image], map);
+        maps[i] = std::make_shared<const image::ByteImage>(std::move(map));
+    });
+    scene.images.insert(scene.images.end(), maps.begin(), maps.end());
 }
 
 }  // namespace
