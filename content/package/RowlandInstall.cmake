@@ -47,6 +47,7 @@ rowland_export(library
   rowland_lighting Lighting
   rowland_asset Asset
   rowland_diffraction_model DiffractionModel
+  rowland_diffraction_rigorous DiffractionRigorous
   rowland_diffraction_bake DiffractionBake
   rowland_diffraction_representations DiffractionRepresentations
   rowland_diffraction_asset DiffractionAsset

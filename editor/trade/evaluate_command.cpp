@@ -283,7 +283,8 @@ diffraction::EvaluationLight EvaluateCommand::light(int key_lights, math::Spheri
 
 std::vector<diffraction::CheckedRadiance> EvaluateCommand::by_reference(
     const colour::LightSpectra& spectra, const std::vector<diffraction::ShadingPoint>& points) const {
-    const diffraction::Grating grating = diffraction::load_material(*material).grating;
+    const diffraction::Grating grating =
+        with_efficiencies(diffraction::load_material(*material), material->string()).grating;
     const auto evaluate = [&](const auto& lit) {
         if (error) return checked_reference(grating, lit, spectra, points);
         std::vector<diffraction::CheckedRadiance> rows;
@@ -311,6 +312,7 @@ std::vector<glm::dvec3> EvaluateCommand::by_representation(const colour::Illumin
     const nlohmann::json json = diffraction::load_material_json(*material);
     diffraction::Material shaded = diffraction::parse_material(with_method(json, asked), material->string());
     diffraction::require_baked_grooves(shaded.grating, material->string());
+    shaded = with_efficiencies(std::move(shaded), material->string());
     shaded.quality.illuminant = white;
     const diffraction::EvaluationLight lit = light(asked.key_lights, asked.window);
     const auto* spikes = std::get_if<diffraction::SpikeTableSettings>(&*shaded.quality.pinned);

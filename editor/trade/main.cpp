@@ -67,7 +67,7 @@ void add_project_command(CLI::App& program) {
 std::vector<glm::dvec3> radiance(const std::filesystem::path& material, const lighting::ProbeImage& probe,
                                  const std::string& method, const FrameSet& set) {
     if (method == "reference") {
-        const diffraction::Material parsed = diffraction::load_material(material);
+        const diffraction::Material parsed = with_efficiencies(diffraction::load_material(material), material.string());
         return reference_radiance(parsed.grating, probe, colour::LightSpectra(parsed.quality.illuminant),
                                   all_frames(set));
     }

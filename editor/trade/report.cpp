@@ -94,7 +94,9 @@ void mark_front(const char* cost, const char* mark, nlohmann::ordered_json& rows
 nlohmann::json browser_material(const std::filesystem::path& path) {
     nlohmann::json json = diffraction::load_material_json(path);
     const diffraction::Material material = diffraction::parse_material(json, path.string());
-    if (std::holds_alternative<diffraction::EfficiencyTable>(material.grating.profile)) return nullptr;
+    if (std::holds_alternative<diffraction::EfficiencyTable>(material.grating.profile) ||
+        material.grating.theory == diffraction::Theory::Rigorous)
+        return nullptr;
     json.erase("quality");
     return json;
 }

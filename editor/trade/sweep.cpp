@@ -106,7 +106,7 @@ Sweep::Sweep(SweepInputs inputs)
       results_(inputs_.folder / "journal.jsonl") {
     for (const auto& path : inputs_.materials) {
         const nlohmann::json json = diffraction::load_material_json(path);
-        diffraction::Material parsed = diffraction::load_material(path);
+        diffraction::Material parsed = with_efficiencies(diffraction::load_material(path), path.string());
         for (const diffraction::Method& setting : inputs_.settings) check_method(json, path.string(), setting);
         const auto settings = inputs_.settings.empty() ? sweep_plan(parsed.grating.lobe) : inputs_.settings;
         materials_.push_back({json, path.string(), material_hash(json, path), std::move(parsed), settings});

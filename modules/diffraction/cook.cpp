@@ -107,6 +107,7 @@ std::vector<std::byte> cook_source(cook::Context& context) {
     nlohmann::json json = context.read_json(context.source());
     Material material = parse_material(json, file, read_through(context));
     require_baked_grooves(material.grating, file);
+    material = with_efficiencies(std::move(material), file);
     MaterialSource source{.json = std::move(json), .material = std::move(material)};
     const CookedMaterial cooked =
         source.material.quality.pinned ? bake_material(source.material) : choose(context, source, {});
@@ -140,6 +141,7 @@ std::vector<std::byte> cook_extension(cook::Context& context, const cook::SceneE
     const GroovePitches* const of_texture = pitches ? &*pitches : nullptr;
     drawable_material(grating, of_texture, file, extension.pointer);  // refuses what cannot be drawn
 
+    grating.material = with_efficiencies(std::move(grating.material), file);
     MaterialSource source{.json = material_members(extension.object), .material = std::move(grating.material)};
     const nlohmann::json asked = source.json.value("quality", nlohmann::json::object());
     Quality& quality = source.material.quality;

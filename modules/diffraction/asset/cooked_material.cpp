@@ -6,6 +6,7 @@
 #include <cmath>
 #include <iterator>
 #include <map>
+#include <numeric>
 #include <string>
 #include <utility>
 
@@ -15,6 +16,8 @@
 #include "engine/core/error.h"
 #include "engine/core/json_reader.h"
 #include "engine/lighting/key_lights.h"
+#include "modules/diffraction/model/brdf.h"
+#include "modules/diffraction/rigorous/efficiencies.h"
 
 namespace rowland::diffraction {
 
@@ -93,8 +96,38 @@ KernelTable read_kernel(ByteReader& reader) {
     return kernel;
 }
 
+/// More than visible light has at the coarsest pitch that is solved.
+constexpr std::size_t kMostGridOrders = 256;
+
+/// The efficiencies of a rigorous theory; those of a table follow from it.
+void write_efficiencies(const Grating& grating, ByteWriter& writer) {
+    if (grating.theory == Theory::Scalar) return;
+    const EfficiencyGrid& grid = *grating.efficiencies;
+    writer.value(static_cast<std::uint32_t>(grid.orders.size()));
+    writer.value(static_cast<std::int32_t>(grid.orders.front()));
+    for (const float value : grid.values) writer.value(value);
+}
+
+void read_efficiencies(ByteReader& reader, Grating& grating) {
+    if (grating.theory == Theory::Scalar) return;
+    const auto count = reader.value<std::uint32_t>();
+    const auto first = reader.value<std::int32_t>();
+    if (count == 0 || count > kMostGridOrders || first < -kHighestOrder || first > 0)
+        reader.fail(fmt::format("{} orders from {}", count, first), fmt::format("1 to {}", kMostGridOrders));
+    std::vector<int> orders(count);
+    std::iota(orders.begin(), orders.end(), first);
+    EfficiencyGrid grid = empty_grid(grating.pitch_nm, std::move(orders));
+    for (float& value : grid.values) {
+        value = reader.value<float>();
+        if (!(value >= 0.0F && value <= 1.0F + kRowSumTolerance))
+            reader.fail(fmt::format("an efficiency of {}", value), "0 to 1");
+    }
+    grating.efficiencies = std::make_shared<const EfficiencyGrid>(std::move(grid));
+}
+
 void write_baked(const CookedMaterial& cooked, ByteWriter& writer) {
-    write_kernel(cooked.kernel, writer);
+    // That of several views takes a hundred times the memory of the efficiencies from which it follows.
+    if (!depends_on_direction(cooked.material.grating)) write_kernel(cooked.kernel, writer);
     const glm::mat3 zero_order(cooked.zero_order_xyz);
     write_matrices({&zero_order, 1}, writer);
     write_tables(cooked.tables, writer);
@@ -102,12 +135,20 @@ void write_baked(const CookedMaterial& cooked, ByteWriter& writer) {
 
 /// What write_baked() writes, for cooked.material.
 void read_baked(ByteReader& reader, CookedMaterial& cooked) {
-    cooked.kernel = read_kernel(reader);
+    cooked.kernel =
+        depends_on_direction(cooked.material.grating)
+            ? kernel_table(cooked.material.grating, colour::LightSpectra(cooked.material.quality.illuminant))
+            : read_kernel(reader);
     cooked.zero_order_xyz = glm::dmat3(read_matrices(reader, "zero order", 1, 1)[0]);
     cooked.tables = read_tables(reader, representation(cooked.material));
 }
 
 }  // namespace
+
+Material with_efficiencies(Material material, const std::string& file) {
+    if (!is_solved(material.grating)) material.grating.efficiencies = rigorous_efficiencies(material.grating, file);
+    return material;
+}
 
 void require_baked_grooves(const Grating& grating, const std::string& file) {
     if (const auto refused = baked_refusal(grating))
@@ -115,11 +156,11 @@ void require_baked_grooves(const Grating& grating, const std::string& file) {
 }
 
 CookedMaterial bake_kernel(const Material& material) {
-    const ColourKernel kernel(material.grating, colour::LightSpectra(material.quality.illuminant));
+    const colour::LightSpectra spectra(material.quality.illuminant);
     return {.material = material,
             .tables = DirectTables{},
-            .kernel = tabulate(kernel),
-            .zero_order_xyz = kernel.zero_order_xyz()};
+            .kernel = kernel_table(material.grating, spectra),
+            .zero_order_xyz = ColourKernel(material.grating, spectra).zero_order_xyz()};
 }
 
 CookedMaterial bake_material(const Material& material) {
@@ -138,7 +179,7 @@ std::shared_ptr<const CookedMaterial> bake_reflected_side(const Material& materi
 }
 
 CookedMaterial cook_material(const nlohmann::json& json, const std::string& file, const ReadNamed& read) {
-    const Material material = parse_material(json, file, read);
+    const Material material = with_efficiencies(parse_material(json, file, read), file);
     require_baked_grooves(material.grating, file);
     return bake_material(material);
 }
@@ -160,6 +201,7 @@ namespace {
 void write_material(const nlohmann::json& json, const CookedMaterial& cooked, ByteWriter& writer) {
     writer.text(json.dump());
     write_named(named_texts(json, cooked.material), writer);
+    write_efficiencies(cooked.material.grating, writer);
     write_baked(cooked, writer);
     if (cooked.reflected) write_baked(*cooked.reflected, writer);
     writer.text(cooked.measured ? write_budget_record(*cooked.measured) : std::string());
@@ -171,6 +213,7 @@ CookedMaterial read_material(ByteReader& reader, const GroovePitches* pitches) {
     CookedMaterial cooked;
     const nlohmann::json json = parse_json(reader.text(), file);
     cooked.material = parse_material(json, file, read_among(read_named(reader), file));
+    read_efficiencies(reader, cooked.material.grating);
     if (pitches != nullptr) {
         if (groove_refusal(cooked.material, *pitches)) reader.fail("a groove texture", "none for this representation");
         cooked.material = suited_to_grooves(std::move(cooked.material), *pitches);

@@ -19,7 +19,7 @@
 namespace rowland::diffraction {
 
 inline constexpr const char* kMaterialAssetType = "material";
-inline constexpr std::uint32_t kMaterialAssetVersion = 7;
+inline constexpr std::uint32_t kMaterialAssetVersion = 8;
 
 /// A material with its baked tables.
 struct CookedMaterial {

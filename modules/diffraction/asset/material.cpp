@@ -14,6 +14,7 @@
 #include "modules/diffraction/asset/quality.h"
 #include "modules/diffraction/model/brdf.h"
 #include "modules/diffraction/model/grating.h"
+#include "modules/diffraction/rigorous/efficiencies.h"
 
 namespace rowland::diffraction {
 
@@ -93,16 +94,40 @@ void check_few_grooves(JsonReader& json, const Grating& grating) {
         json.fail("grooves", fmt::format("{} with {}", grating.grooves, what), fmt::format("at least {}", kManyGrooves),
                   why);
     };
+    if (grating.theory == Theory::Rigorous)
+        refuse("rigorous theory", "it does not give the groove's spectrum between the orders");
     if (std::holds_alternative<EfficiencyTable>(grating.profile))
         refuse("a table of efficiencies", "a table does not hold the groove's spectrum between the orders");
     if (std::holds_alternative<PitsLobe>(grating.lobe))
         refuse("a lobe of pits", "with few grooves the lobe must be the same for every wavelength");
 }
 
+/// "theory", which relief_of() and solve_efficiencies() must be able to follow.
+void parse_theory(JsonReader& json, Grating& grating) {
+    if (json.choice_or("theory", "scalar", {"scalar", "rigorous"}) == "scalar") return;
+    const auto refuse = [&](const std::string& found, const std::string& expected, const char* remedy) {
+        json.fail("theory", "\"rigorous\" with " + found, expected, remedy);
+    };
+    if (std::holds_alternative<SlitProfile>(grating.profile) ||
+        std::holds_alternative<EfficiencyTable>(grating.profile))
+        refuse("a profile without a relief", "lamellar, sinusoidal or blazed grooves", "use \"scalar\"");
+    const double finest_nm = colour::kVisibleMin / 2.0;
+    if (!(grating.pitch_nm > finest_nm && grating.pitch_nm <= kCoarsestSolved_nm))
+        refuse(fmt::format("a pitch of {} nm", grating.pitch_nm),
+               fmt::format("more than {} nm, below which no order but 0 propagates, and up to {} nm", finest_nm,
+                           kCoarsestSolved_nm),
+               "use \"scalar\"");
+    grating.theory = Theory::Rigorous;
+}
+
 Grating parse_grooves(JsonReader& json, const ReadNamed& read) {
     Grating grating;
     grating.pitch_nm = json.number("pitch_nm", {.minimum = 1.0, .maximum = 1e7});
     grating.profile = parse_profile(json.object("profile"), grating.pitch_nm, read);
+    parse_theory(json, grating);
+    if (depends_on_incidence(grating.profile))
+        grating.efficiencies = std::make_shared<const EfficiencyGrid>(
+            efficiency_grid(std::get<EfficiencyTable>(grating.profile), grating.pitch_nm));
     grating.grooves = json.number_or("grooves", grating.grooves, {.minimum = 1.0, .maximum = 1e9});
     if (json.has("orders")) grating.orders = parse_orders(json, grating.pitch_nm);
     if (json.choice_or("normalization", "energy", {"energy", "agu"}) == "agu") {
@@ -176,6 +201,7 @@ Representation default_representation(const Grating& grating) {
 struct Efficiencies {
     double zero = 0.0;    ///< η₀
     double listed = 0.0;  ///< Σ listed η without η₀
+    double all = 1.0;     ///< what is not absorbed; scalar theory leaves what is to the base layer
 };
 
 Efficiencies efficiencies(const Grating& grating, double wavelength_nm) {
@@ -185,8 +211,14 @@ Efficiencies efficiencies(const Grating& grating, double wavelength_nm) {
         return {zero, std::accumulate(orders.begin(), orders.end(), -zero)};
     }
     Efficiencies found{.zero = zero_order_efficiency(grating, wavelength_nm)};
+    const bool rigorous = depends_on_direction(grating);
+    const auto takes_light = [&](int order) { return !rigorous || std::abs(order * wavelength_nm) < grating.pitch_nm; };
     for (const int order : grating.orders)
-        if (order != 0) found.listed += order_efficiency(grating, order, wavelength_nm);
+        if (order != 0 && takes_light(order)) found.listed += order_efficiency(grating, order, wavelength_nm);
+    if (!rigorous) return found;
+    found.all = 0.0;
+    for (const int order : grating.efficiencies->orders)
+        if (takes_light(order)) found.all += order_efficiency(grating, order, wavelength_nm);
     return found;
 }
 
@@ -242,6 +274,8 @@ Material parse_material(JsonReader& reader, const ReadNamed& read) {
         refuse_beside_transmission(reader);
         material.grating.transmission = parse_transmission(reader.object("transmission"), material.grating.profile);
     }
+    if (material.grating.theory == Theory::Rigorous && !material.grating.metal)
+        reader.fail("grating/theory", "\"rigorous\" without a metal", "grooves of a metal", "add \"metal\": \"Al\"");
     if (reader.has("base")) material.base = parse_base(reader.object("base"));
     if (reader.has("quality")) material.quality = parse_quality(reader.object("quality"), material.grating, read);
     return material;
@@ -287,7 +321,7 @@ LayerWeights layer_weights(const Grating& grating, const colour::Illuminant& ill
         const double taken = of_grating.zero + of_grating.listed + (of_other.zero + of_other.listed);
         if (!grating.transmission) weights.reflected += (of_grating.zero + of_grating.listed) * white;
         if (!lists_zero) weights.mirror += of_grating.zero * white;
-        if (!grating.side_reflectance) weights.base += std::max(0.0, 1.0 - taken) * white;
+        if (!grating.side_reflectance) weights.base += std::max(0.0, of_grating.all - taken) * white;
     }
     return weights;
 }

@@ -60,6 +60,10 @@ struct Material {
     Quality quality;
 };
 
+/// The material with the efficiencies that its theory asks for, which take seconds to solve: rigorous/efficiencies.h.
+/// Throws Error (input) naming `file`.
+Material with_efficiencies(Material material, const std::string& file);
+
 /// The representation to bake: the pinned one, else spikes, of a lattice planar. A cooker pins the one that it chooses
 /// for max_error.
 Representation representation(const Material& material);
@@ -91,7 +95,7 @@ Material parse_material(JsonReader& reader, const ReadNamed& read);
 
 /// A material file's JSON, not checked yet. Throws Error (input).
 nlohmann::json load_material_json(const std::filesystem::path& path);
-/// Reads and parses a material file.
+/// Reads and parses a material file. Its efficiencies are not solved yet: with_efficiencies().
 Material load_material(const std::filesystem::path& path);
 
 /// Its parts. They throw Error (input). A groove's profile, by profile_descriptors(); without `read` none from a file:

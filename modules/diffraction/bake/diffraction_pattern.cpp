@@ -21,10 +21,12 @@ constexpr double kSameEfficiency = 1e-6;
 /// Efficiencies are compared at this step, in nanometres.
 constexpr int kCompared_nm = 5;
 
-bool as_bright(const Grating& grating, int a, int b) {
+/// Whether an order is as bright for light from `direction` as the opposite one for light from −direction.
+bool as_bright(const Grating& grating, int order, double direction) {
     for (int nm = colour::kVisibleMin; nm <= colour::kVisibleMax; nm += kCompared_nm) {
-        const double first = order_efficiency(grating, a, nm);
-        if (std::abs(first - order_efficiency(grating, b, nm)) > kSameEfficiency * std::abs(first)) return false;
+        const double first = order_efficiency(grating, order, nm, direction);
+        if (std::abs(first - order_efficiency(grating, -order, nm, -direction)) > kSameEfficiency * std::abs(first))
+            return false;
     }
     return true;
 }
@@ -60,8 +62,10 @@ void add_order(const Grating& grating, const colour::LightSpectra& spectra, int 
 
 bool is_even(const Grating& grating) {
     if (grating.lattice) return is_even_lattice(grating);
-    return std::all_of(grating.orders.begin(), grating.orders.end(),
-                       [&](int order) { return lists(grating, -order) && as_bright(grating, order, -order); });
+    return std::ranges::all_of(grating.orders, [&](int order) {
+        return lists(grating, -order) && as_bright(grating, order, 0.0) &&
+               (!depends_on_direction(grating) || as_bright(grating, order, 0.6));
+    });
 }
 
 DiffractionPattern diffraction_pattern(const Grating& grating, const colour::LightSpectra& spectra, double step) {

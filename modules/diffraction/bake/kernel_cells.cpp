@@ -24,34 +24,41 @@ KernelCells::KernelCells(const KernelTable& kernel, double pitch_nm, int views, 
     const int sums = 2 * cells_;
     const double step = 2.0 / cells_;
     const double density = 1.0 / step;
-    weights_.assign(static_cast<std::size_t>(sums) * kWeightFloats, 0.0F);
-    first_ = sums;
-    for (int sum = 0; sum < sums; ++sum) {
+    const auto weight_of = [&](int sum, double v_g) {
         const double begin = pitch_nm * (sum * step - 2.0);
         const double end = pitch_nm * ((sum + 1) * step - 2.0);
-        const glm::dmat3 weight = density * (kernel.at(end) - kernel.at(begin));
-        bool any = false;
-        for (int c = 0; c < 3; ++c)
-            for (int o = 0; o < 3; ++o) {
-                const auto at = static_cast<std::size_t>(sum) * kWeightFloats + static_cast<std::size_t>(4 * c + o);
-                weights_[at] = static_cast<float>(weight[c][o]);
-                any = any || weights_[at] != 0.0F;
-            }
-        if (!any) continue;
-        first_ = std::min(first_, sum);
-        end_ = sum + 1;
-    }
-    // Order 0, δ(u), is spread over the four cells around u = 0; with fewer the image shows single texels.
-    if (zero_order_xyz == glm::dmat3(0.0)) return;
-    for (int sum = sums / 2 - 2; sum < sums / 2 + 2; ++sum) {
-        const double fraction = sum == sums / 2 - 1 || sum == sums / 2 ? 0.375 : 0.125;
+        glm::dmat3 weight = kernel.at(end, v_g) - kernel.at(begin, v_g);
+        // Order 0, δ(u), is spread over the four cells around u = 0; with fewer the image shows single texels.
+        const int from_zero = std::abs(2 * sum + 1 - sums);
+        if (from_zero <= 3) weight += (from_zero == 1 ? 0.375 : 0.125) * zero_order_xyz;
+        return density * weight;
+    };
+    first_ = sums;
+    const auto set = [&](std::size_t index, int sum, const glm::dmat3& weight) {
+        if (weight == glm::dmat3(0.0)) return;
         for (int c = 0; c < 3; ++c)
             for (int o = 0; o < 3; ++o)
-                weights_[static_cast<std::size_t>(sum) * kWeightFloats + static_cast<std::size_t>(4 * c + o)] +=
-                    static_cast<float>(fraction * density * zero_order_xyz[c][o]);
+                weights_[index * kWeightFloats + static_cast<std::size_t>(4 * c + o)] =
+                    static_cast<float>(weight[c][o]);
         first_ = std::min(first_, sum);
         end_ = std::max(end_, sum + 1);
+    };
+    if (kernel.views == 1) {
+        weights_.assign(static_cast<std::size_t>(sums) * kWeightFloats, 0.0F);
+        for (int sum = 0; sum < sums; ++sum) set(static_cast<std::size_t>(sum), sum, weight_of(sum, 0.0));
+        return;
     }
+    view_stride_ = static_cast<std::size_t>(cells_);
+    weights_.assign(static_cast<std::size_t>(views) * view_stride_ * kWeightFloats, 0.0F);
+    for (int view = 0; view < views; ++view)
+        for (int cell = 0; cell < cells_; ++cell)
+            set(static_cast<std::size_t>(view) * view_stride_ + static_cast<std::size_t>(cell), cell + 2 * view,
+                weight_of(cell + 2 * view, 2.0 * view / (views - 1) - 1.0));
+}
+
+const float* KernelCells::weights(int view, int cell) const {
+    return weights_.data() +
+           (static_cast<std::size_t>(view) * view_stride_ + static_cast<std::size_t>(cell)) * kWeightFloats;
 }
 
 KernelCells::Range KernelCells::range(int view) const {
@@ -76,8 +83,7 @@ void KernelCells::correlate(std::span<const Four> light, std::span<Four> xyz) co
     for (int view = 0; view < views_; ++view) {
         const Range reached = range(view);
         for (std::size_t i = 0; i < 3 * kFours; i += kSums) {
-            const float* weight =
-                weights_.data() + static_cast<std::size_t>(reached.begin + 2 * view) * kWeightFloats + i / kFours;
+            const float* weight = weights(view, reached.begin) + i / kFours;
             const Four* from = light.data() + static_cast<std::size_t>(reached.begin) * 3 * kFours + i % kFours;
             std::array<Four, kSums> sum{};
             for (int cell = reached.begin; cell < reached.end;
@@ -99,7 +105,7 @@ void KernelCells::correlate_rgb(std::span<const float> light, std::span<float> x
     for (int view = 0; view < views_; ++view) {
         std::array<float, 4> sum{};
         const Range reached = range(view);
-        const float* weight = weights_.data() + static_cast<std::size_t>(reached.begin + 2 * view) * kWeightFloats;
+        const float* weight = weights(view, reached.begin);
         const float* from = light.data() + static_cast<std::size_t>(reached.begin) * 4;
         for (int cell = reached.begin; cell < reached.end; ++cell, weight += kWeightFloats, from += 4)
             for (std::size_t o = 0; o < 4; ++o)
@@ -144,7 +150,7 @@ std::vector<double> stencil(double deviation, double step) {
 
 }  // namespace
 
-glm::dmat3 BlurredKernel::at(double x_nm, double deviation_nm) const {
+glm::dmat3 BlurredKernel::at(double x_nm, double deviation_nm, double v_g) const {
     const auto interpolate = [](double position, int count, int& low) {
         const double inside = std::clamp(position, 0.0, static_cast<double>(count - 1));
         low = std::min(static_cast<int>(inside), count - 2);
@@ -155,12 +161,18 @@ glm::dmat3 BlurredKernel::at(double x_nm, double deviation_nm) const {
     const double s = interpolate((x_nm - begin_nm) / (end_nm - begin_nm) * (columns - 1), columns, column);
     const double t =
         interpolate(std::log2(std::max(deviation_nm, narrowest_nm) / narrowest_nm) * levels_per_octave, levels, level);
-    const auto value = [&](int i, int j) {
-        return glm::dmat3(
-            values[static_cast<std::size_t>(j) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(i)]);
+    const auto of_view = [&](int view) {
+        const auto value = [&](int i, int j) {
+            return glm::dmat3(values[static_cast<std::size_t>(view * levels + j) * static_cast<std::size_t>(columns) +
+                                     static_cast<std::size_t>(i)]);
+        };
+        return (1.0 - t) * ((1.0 - s) * value(column, level) + s * value(column + 1, level)) +
+               t * ((1.0 - s) * value(column, level + 1) + s * value(column + 1, level + 1));
     };
-    return (1.0 - t) * ((1.0 - s) * value(column, level) + s * value(column + 1, level)) +
-           t * ((1.0 - s) * value(column, level + 1) + s * value(column + 1, level + 1));
+    if (views == 1) return of_view(0);
+    int view = 0;
+    const double r = interpolate(0.5 * (v_g + 1.0) * (views - 1), views, view);
+    return (1.0 - r) * of_view(view) + r * of_view(view + 1);
 }
 
 BlurredKernel blur(const KernelTable& kernel, double widest_nm, int columns, int levels_per_octave) {
@@ -177,23 +189,28 @@ BlurredKernel blur(const KernelTable& kernel, double widest_nm, int columns, int
     blurred.end_nm = kernel.end_nm + margin;
     const auto size = static_cast<std::size_t>(columns);
     const double step = (blurred.end_nm - blurred.begin_nm) / (columns - 1);
-    std::vector<glm::dmat3> means(size);
-    for (std::size_t i = 0; i < size; ++i) {
-        const double x = blurred.begin_nm + static_cast<double>(i) * step;
-        means[i] = kernel.average(x - 0.5 * step, x + 0.5 * step);
+    blurred.views = kernel.views == 1 ? 1 : kBlurredViews;
+    const auto levels = static_cast<std::size_t>(blurred.levels);
+    std::vector<glm::dmat3> means(size * static_cast<std::size_t>(blurred.views));
+    for (std::size_t i = 0; i < means.size(); ++i) {
+        const double x = blurred.begin_nm + static_cast<double>(i % size) * step;
+        const double v_g = 2.0 * static_cast<double>(i / size) / (kBlurredViews - 1) - 1.0;
+        means[i] = kernel.average(x - 0.5 * step, x + 0.5 * step, v_g);
     }
-    blurred.values.resize(size * static_cast<std::size_t>(blurred.levels));
-    parallel_for(static_cast<std::size_t>(blurred.levels), [&](std::size_t level) {
+    blurred.values.resize(means.size() * levels);
+    parallel_for(levels * static_cast<std::size_t>(blurred.views), [&](std::size_t row) {
+        const std::size_t level = row % levels;
+        const glm::dmat3* const from = means.data() + row / levels * size;
         const double deviation = deviation_of(static_cast<int>(level));
         const double left = deviation * deviation - kColumnVariance * step * step;
         const std::vector<double> weights = stencil(std::sqrt(std::max(left, kLeastVariance * step * step)), step);
         for (std::size_t i = 0; i < size; ++i) {
-            glm::dmat3 sum = weights[0] * means[i];
+            glm::dmat3 sum = weights[0] * from[i];
             for (std::size_t j = 1; j < weights.size(); ++j) {
-                if (i >= j) sum += weights[j] * means[i - j];
-                if (i + j < size) sum += weights[j] * means[i + j];
+                if (i >= j) sum += weights[j] * from[i - j];
+                if (i + j < size) sum += weights[j] * from[i + j];
             }
-            blurred.values[level * size + i] = glm::mat3(sum);
+            blurred.values[row * size + i] = glm::mat3(sum);
         }
     });
     return blurred;
@@ -203,7 +220,8 @@ BlurredKernel blur_for_lights(const KernelTable& kernel, double pitch_nm, int mo
     const double widest_nm = std::max(kNarrowest_nm, kWidestDeviation * pitch_nm);
     const double extent_nm = kernel.end_nm - kernel.begin_nm + 8.0 * widest_nm;
     const double columns = std::clamp(extent_nm / kColumn_nm, double{kFewestColumns}, double(most_columns));
-    return blur(kernel, widest_nm, static_cast<int>(columns), levels_per_octave);
+    if (kernel.views == 1) return blur(kernel, widest_nm, static_cast<int>(columns), levels_per_octave);
+    return blur(kernel, widest_nm, static_cast<int>(columns) / 2, std::max(1, levels_per_octave - 1));
 }
 
 KernelUniforms kernel_uniforms(const KernelTable& kernel, const BlurredKernel& blurred, double pitch_nm) {

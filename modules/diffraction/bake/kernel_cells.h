@@ -44,7 +44,8 @@ inline constexpr float kBestView = kBestLinear + 1.0F / 32.0F;
 using Four = float __attribute__((vector_size(4 * sizeof(float))));
 
 /// A colour kernel over equal cells, for correlation with arc profiles: 2(views − 1) cells of a ∈ [−1, 1] and views at
-/// v_g = 2j/(views−1) − 1, so that a weight depends on the sum a + v_g alone. It is the kernel's mean over the cell.
+/// v_g = 2j/(views−1) − 1, so that a weight depends on the sum a + v_g alone, or on that and the view as the kernel
+/// does. It is the kernel's mean over the cell.
 class KernelCells {
  public:
     KernelCells(const KernelTable& kernel, double pitch_nm, int views, const glm::dmat3& zero_order_xyz);
@@ -70,20 +71,24 @@ class KernelCells {
         int end;
     };
     Range range(int view) const;
+    const float* weights(int view, int cell) const;
 
     int views_;
     int cells_;
     int first_ = 0;  ///< weights outside [first_, end_) are 0
     int end_ = 0;
-    std::vector<float> weights_;  ///< 12 per sum: columns of the matrix, each padded to four
+    std::vector<float> weights_;   ///< 12 per sum: columns of the matrix, each padded to four
+    std::size_t view_stride_ = 2;  ///< sums from a view's weights of its first cell to those of the next view
 };
 
 inline constexpr int kLevelsPerOctave = 4;
+inline constexpr int kBlurredViews = 17;
 
 /// k smoothed by normal distributions, over x and the deviation σ: the response to a light of that extent in one
 /// look-up. A 2D texture, GL_LINEAR, GL_CLAMP_TO_EDGE, three texels (the matrix's columns) per entry.
 ///   s = ((x − begin)/(end − begin) (columns−1) + ½)/columns
 ///   t = (log₂(σ/narrowest)·levels_per_octave + ½)/levels
+/// Where k depends on the view, such a table for each of kBlurredViews at v_g = 2j/(kBlurredViews−1) − 1.
 struct BlurredKernel {
     double begin_nm = 0.0;
     double end_nm = 0.0;
@@ -91,10 +96,11 @@ struct BlurredKernel {
     int columns = 0;
     int levels = 0;
     int levels_per_octave = kLevelsPerOctave;
-    std::vector<glm::mat3> values;  ///< per nm; level by level
+    int views = 1;
+    std::vector<glm::mat3> values;  ///< per nm; view by view, level by level
 
     /// The value that the texture unit interpolates: 0 at the table's ends, and no narrower than a column.
-    glm::dmat3 at(double x_nm, double deviation_nm) const;
+    glm::dmat3 at(double x_nm, double deviation_nm, double v_g = 0.0) const;
 };
 
 /// σ from 1 nm to at least `widest_nm` ≥ 1; x to 4σ beyond the kernel. A value is what at() is to give for σ: the
@@ -103,7 +109,8 @@ struct BlurredKernel {
 BlurredKernel blur(const KernelTable& kernel, double widest_nm, int columns = 2048,
                    int levels_per_octave = kLevelsPerOctave);
 
-/// blur() for lights and pixels on a grating of this pitch: deviations of u up to .2. At most so many columns.
+/// blur() for lights and pixels on a grating of this pitch: deviations of u up to .2. At most so many columns. Of
+/// several views, half as many columns and a level an octave less.
 BlurredKernel blur_for_lights(const KernelTable& kernel, double pitch_nm, int most_columns = 4096,
                               int levels_per_octave = kLevelsPerOctave);
 

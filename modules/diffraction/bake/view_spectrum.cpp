@@ -23,36 +23,42 @@ constexpr std::array<double, 2> kNodes = {0.21132486540518711775, 0.788675134594
 }  // namespace
 
 TransferTerms::TransferTerms(const Grating& grating, const colour::LightSpectra& spectra, int bands)
-    : pitch_nm_(grating.pitch_nm),
+    : grating_(grating),
       by_moments_(has_arc_moments(grating)),
-      orders_(grating.orders),
       arcs_(bands, grating.lobe, grating.cover),
       moments_(bands) {
     ROWLAND_CHECK_OP(grating.pitch_nm, >, 0.0);
     require_many_grooves(grating);
     if (grating.lattice) lattice_.emplace(grating, spectra, bands);
-    for (const int order : orders_)
-        for (std::size_t j = 0; j < kWavelengths; ++j) {
-            const double wavelength_nm = colour::kVisibleMin + static_cast<double>(j);
-            weights_.push_back(order_efficiency(grating, order, wavelength_nm) *
-                               glm::outerProduct(colour::cie_xyz(wavelength_nm), spectra(wavelength_nm)));
-        }
+    for (std::size_t j = 0; j < kWavelengths; ++j)
+        observed_.push_back(observed_spectra(spectra, colour::kVisibleMin + static_cast<double>(j)));
+    if (depends_on_direction(grating)) return;
+    for (const int order : grating.orders) weights_.push_back(weights(order, 0.0));
+}
+
+std::vector<glm::dmat3> TransferTerms::weights(int order, double v_g) const {
+    std::vector<glm::dmat3> result(kWavelengths);
+    for (std::size_t j = 0; j < kWavelengths; ++j)
+        result[j] = order_efficiency(grating_, order, colour::kVisibleMin + static_cast<double>(j), v_g) * observed_[j];
+    return result;
 }
 
 template <typename Use>
 void TransferTerms::each_arc(double v_g, double pitch_nm, const Use& use) const {
-    for (std::size_t k = 0; k < orders_.size(); ++k) {
-        const double slope = orders_[k] / pitch_nm;
+    for (std::size_t k = 0; k < grating_.orders.size(); ++k) {
+        const int order = grating_.orders[k];
+        const double slope = order / pitch_nm;
+        const std::vector<glm::dmat3> of_view = weights_.empty() ? weights(order, v_g) : std::vector<glm::dmat3>();
+        const std::vector<glm::dmat3>& of_order = weights_.empty() ? of_view : weights_[k];
         const auto weight_at = [&](double position) {
             const auto j = std::min(static_cast<std::size_t>(position), kWavelengths - 2);
             const double t = position - static_cast<double>(j);
-            const std::size_t first = k * kWavelengths + j;
-            return (1.0 - t) * weights_[first] + t * weights_[first + 1];
+            return (1.0 - t) * of_order[j] + t * of_order[j + 1];
         };
-        if (orders_[k] == 0) {
+        if (order == 0) {
             for (std::size_t j = 0; j < kWavelengths; ++j)
                 use(-v_g, colour::kVisibleMin + static_cast<double>(j),
-                    (j == 0 || j + 1 == kWavelengths ? 0.5 : 1.0) * weights_[k * kWavelengths + j]);
+                    (j == 0 || j + 1 == kWavelengths ? 0.5 : 1.0) * of_order[j]);
             continue;
         }
         for (std::size_t j = 0; j + 1 < kWavelengths; ++j) {
@@ -90,7 +96,7 @@ std::vector<glm::dmat3> TransferTerms::summed_arcs(double v_g, double v_h, doubl
     const auto count = static_cast<std::size_t>(math::sh_count(arcs_.bands()));
     std::vector<glm::dmat3> arc_frame(count, glm::dmat3(0.0));
     std::vector<double> arc(count);
-    each_arc(v_g, pitch_nm_ * pitch_factor, [&](double a, double wavelength_nm, const glm::dmat3& weight) {
+    each_arc(v_g, grating_.pitch_nm * pitch_factor, [&](double a, double wavelength_nm, const glm::dmat3& weight) {
         std::fill(arc.begin(), arc.end(), 0.0);
         arcs_.accumulate(a, v_h, wavelength_nm, 1.0, arc);
         for (std::size_t i = 0; i < count; ++i)
@@ -111,7 +117,7 @@ std::vector<glm::dmat3> TransferTerms::moments(double v_g, double pitch_factor) 
     ROWLAND_CHECK(by_moments_, "arc moments are those of the flat lobe in air");
     std::vector<glm::dmat3> result(static_cast<std::size_t>(arc_moment_count(moments_.bands())), glm::dmat3(0.0));
     std::vector<double> basis(result.size());
-    each_arc(v_g, pitch_nm_ * pitch_factor, [&](double a, double, const glm::dmat3& weight) {
+    each_arc(v_g, grating_.pitch_nm * pitch_factor, [&](double a, double, const glm::dmat3& weight) {
         evaluate_arc_basis(a, moments_.bands(), basis);
         for (std::size_t k = 0; k < result.size(); ++k) result[k] += basis[k] * weight;
     });
@@ -128,17 +134,15 @@ void require_many_grooves(const Grating& grating) {
 }
 
 ViewSpectrum::ViewSpectrum(const Grating& grating, int bands)
-    : pitch_nm_(grating.pitch_nm),
+    : grating_(grating),
       lattice_orders_(grating.lattice ? shaded_lattice_orders(grating) : std::vector<LatticeOrder>{}),
-      orders_(grating.orders),
-      cover_(grating.cover),
       arcs_(bands, grating.lobe, grating.cover) {
     ROWLAND_CHECK_OP(grating.pitch_nm, >, 0.0);
     require_many_grooves(grating);
     std::vector<double> totals(kWavelengths, 0.0);
     for (const LatticeOrder& order : lattice_orders_)
         std::transform(totals.begin(), totals.end(), order.efficiency.begin(), totals.begin(), std::plus<>());
-    for (const int order : orders_) {
+    for (const int order : grating.orders) {
         for (std::size_t j = 0; j < kWavelengths; ++j) {
             const double wavelength_nm = colour::kVisibleMin + static_cast<double>(j);
             efficiencies_.push_back(order_efficiency(grating, order, wavelength_nm));
@@ -149,14 +153,18 @@ ViewSpectrum::ViewSpectrum(const Grating& grating, int bands)
 }
 
 std::vector<double> ViewSpectrum::coefficients(double v_g, double v_h) const {
-    if (!lattice_orders_.empty()) return lattice_spectrum(lattice_orders_, cover_, {v_g, v_h}, bands());
+    if (!lattice_orders_.empty()) return lattice_spectrum(lattice_orders_, grating_.cover, {v_g, v_h}, bands());
     const auto count = static_cast<std::size_t>(math::sh_count(bands()));
     std::vector<double> arcs(kWavelengths * count, 0.0);
-    for (std::size_t k = 0; k < orders_.size(); ++k) {
+    for (std::size_t k = 0; k < grating_.orders.size(); ++k) {
+        const int order = grating_.orders[k];
         for (std::size_t j = 0; j < kWavelengths; ++j) {
             const double wavelength_nm = colour::kVisibleMin + static_cast<double>(j);
-            arcs_.accumulate(orders_[k] * wavelength_nm / pitch_nm_ - v_g, v_h, wavelength_nm,
-                             efficiencies_[k * kWavelengths + j], std::span(arcs).subspan(j * count, count));
+            const double efficiency = depends_on_direction(grating_)
+                                          ? order_efficiency(grating_, order, wavelength_nm, v_g)
+                                          : efficiencies_[k * kWavelengths + j];
+            arcs_.accumulate(order * wavelength_nm / grating_.pitch_nm - v_g, v_h, wavelength_nm, efficiency,
+                             std::span(arcs).subspan(j * count, count));
         }
     }
     std::vector<double> result(arcs.size());

@@ -38,12 +38,14 @@ class TransferTerms {
     /// Calls use(a, wavelength_nm, weight) for every arc of the quadrature.
     template <typename Use>
     void each_arc(double v_g, double pitch_nm, const Use& use) const;
+    /// The weights of one order for a view, one per nanometre.
+    std::vector<glm::dmat3> weights(int order, double v_g) const;
     std::vector<glm::dmat3> summed_arcs(double v_g, double v_h, double pitch_factor) const;
 
-    double pitch_nm_;
+    Grating grating_;
     bool by_moments_;
-    std::vector<int> orders_;
-    std::vector<glm::dmat3> weights_;  ///< order by order, one per nanometre
+    std::vector<glm::dmat3> observed_;              ///< cmf Eᵀ, one per nanometre
+    std::vector<std::vector<glm::dmat3>> weights_;  ///< by order, where they do not depend on the view
     ArcCoefficients arcs_;
     ArcMoments moments_;
     std::optional<LatticeTerms> lattice_;
@@ -64,16 +66,14 @@ class ViewSpectrum {
     std::vector<double> coefficients(double v_g, double v_h) const;
 
     int bands() const { return arcs_.bands(); }
-    /// max over λ of Σ_m η_m: the scale of the material's response.
+    /// max over λ of Σ_m η_m at normal incidence: the scale of the material's response.
     double largest_efficiency() const { return largest_efficiency_; }
 
  private:
-    double pitch_nm_;
+    Grating grating_;
     std::vector<LatticeOrder> lattice_orders_;
-    std::vector<int> orders_;
-    std::vector<double> efficiencies_;  ///< order by order, 401 each
+    std::vector<double> efficiencies_;  ///< at normal incidence: order by order, 401 each
     double largest_efficiency_ = 0.0;
-    std::optional<Cover> cover_;
     ArcCoefficients arcs_;
 };
 

@@ -75,21 +75,22 @@ glm::dmat3 ColourKernel::Curve::integral_to(double at) const {
     return integral_[i] + (step_ * t) * ((1.0 - 0.5 * t) * values_[i] + (0.5 * t) * values_[i + 1]);
 }
 
-ColourKernel::ColourKernel(const Grating& grating, const colour::LightSpectra& spectra) {
+ColourKernel::ColourKernel(const Grating& grating, const colour::LightSpectra& spectra, double v_g) {
     ROWLAND_CHECK_OP(grating.pitch_nm, >, 0.0);
     ROWLAND_CHECK_OP(grating.grooves, >=, 1.0);
+    ROWLAND_CHECK(is_solved(grating), "a grating of rigorous theory is solved first");
     if (grating.grooves < kManyGrooves)
         add_wide_orders(grating, spectra);
     else
-        add_sharp_orders(grating, observed_at_steps(spectra, 1.0));
+        add_sharp_orders(grating, observed_at_steps(spectra, 1.0), v_g);
 }
 
-void ColourKernel::add_sharp_orders(const Grating& grating, std::span<const glm::dmat3> observed) {
+void ColourKernel::add_sharp_orders(const Grating& grating, std::span<const glm::dmat3> observed, double v_g) {
     for (const int order : grating.orders) {
         std::vector<glm::dmat3> values;
         for (std::size_t j = 0; j < observed.size(); ++j) {
             const double wavelength_nm = colour::kVisibleMin + static_cast<double>(j);
-            values.push_back(order_efficiency(grating, order, wavelength_nm) * observed[j]);
+            values.push_back(order_efficiency(grating, order, wavelength_nm, v_g) * observed[j]);
         }
         Curve curve(colour::kVisibleMin, 1.0, std::move(values));
         if (order == 0) {
@@ -153,22 +154,29 @@ glm::dmat3 ColourKernel::average(double begin_nm, double end_nm) const {
     return (antiderivative(end_nm) - antiderivative(begin_nm)) / (end_nm - begin_nm);
 }
 
-glm::dmat3 KernelTable::at(double x_nm) const {
-    const auto last = static_cast<double>(antiderivative.size() - 1);
-    const double position =
-        end_nm > begin_nm ? std::clamp((x_nm - begin_nm) / (end_nm - begin_nm), 0.0, 1.0) * last : 0.0;
-    const std::size_t i = std::min(static_cast<std::size_t>(position), antiderivative.size() - 2);
-    const double t = position - static_cast<double>(i);
-    return (1.0 - t) * glm::dmat3(antiderivative[i]) + t * glm::dmat3(antiderivative[i + 1]);
+glm::dmat3 KernelTable::of_view(std::size_t view, std::size_t entry, double t) const {
+    const glm::mat3* const first = antiderivative.data() + view * entries() + entry;
+    return (1.0 - t) * glm::dmat3(first[0]) + t * glm::dmat3(first[1]);
 }
 
-glm::dmat3 KernelTable::average(double begin_nm_wanted, double end_nm_wanted) const {
-    return (at(end_nm_wanted) - at(begin_nm_wanted)) / (end_nm_wanted - begin_nm_wanted);
+glm::dmat3 KernelTable::at(double x_nm, double v_g) const {
+    const auto last = static_cast<double>(entries() - 1);
+    const double position =
+        end_nm > begin_nm ? std::clamp((x_nm - begin_nm) / (end_nm - begin_nm), 0.0, 1.0) * last : 0.0;
+    const std::size_t i = std::min(static_cast<std::size_t>(position), entries() - 2);
+    const double t = position - static_cast<double>(i);
+    if (views == 1) return of_view(0, i, t);
+    const EfficiencyGrid::ViewCell cell = EfficiencyGrid::view_cell(v_g);
+    return (1.0 - cell.weight) * of_view(cell.first, i, t) + cell.weight * of_view(cell.first + 1, i, t);
+}
+
+glm::dmat3 KernelTable::average(double begin_nm_wanted, double end_nm_wanted, double v_g) const {
+    return (at(end_nm_wanted, v_g) - at(begin_nm_wanted, v_g)) / (end_nm_wanted - begin_nm_wanted);
 }
 
 KernelTable tabulate(const ColourKernel& kernel, std::size_t entries) {
     ROWLAND_CHECK_OP(entries, >=, std::size_t{2});
-    KernelTable table{.begin_nm = kernel.begin_nm(), .end_nm = kernel.end_nm(), .antiderivative = {}, .error = 0.0};
+    KernelTable table{.begin_nm = kernel.begin_nm(), .end_nm = kernel.end_nm(), .antiderivative = {}};
     const double step_nm = (table.end_nm - table.begin_nm) / static_cast<double>(entries - 1);
     const auto x_of = [&](double position) { return table.begin_nm + position * step_nm; };
     for (std::size_t i = 0; i < entries; ++i)
@@ -184,15 +192,32 @@ KernelTable tabulate(const ColourKernel& kernel, std::size_t entries) {
     return table;
 }
 
+KernelTable kernel_table(const Grating& grating, const colour::LightSpectra& spectra) {
+    KernelTable table = tabulate(ColourKernel(grating, spectra));
+    if (!depends_on_direction(grating)) return table;
+    const std::size_t entries = table.entries();
+    table.views = EfficiencyGrid::kViews;
+    table.antiderivative.resize(entries * EfficiencyGrid::kViews);
+    parallel_for(EfficiencyGrid::kViews, [&](std::size_t view) {
+        const ColourKernel kernel(grating, spectra, EfficiencyGrid::view_at(static_cast<int>(view)));
+        const double step_nm = (table.end_nm - table.begin_nm) / static_cast<double>(entries - 1);
+        for (std::size_t i = 0; i < entries; ++i)
+            table.antiderivative[view * entries + i] =
+                glm::mat3(kernel.antiderivative(table.begin_nm + step_nm * static_cast<double>(i)));
+    });
+    return table;
+}
+
 bool is_even(const KernelTable& kernel) {
     double largest = 0.0;
     double difference = 0.0;
     const double reach = std::max(std::abs(kernel.begin_nm), std::abs(kernel.end_nm));
-    const auto samples = static_cast<int>(kernel.antiderivative.size());
-    for (int i = 1; i <= samples; ++i) {
-        const double x_nm = reach * i / samples;
-        const glm::dmat3 right = kernel.at(x_nm) - kernel.at(0.0);
-        const glm::dmat3 left = kernel.at(0.0) - kernel.at(-x_nm);
+    const auto samples = static_cast<int>(kernel.entries());
+    for (int i = 1; i <= samples * kernel.views; ++i) {
+        const double v_g = kernel.views == 1 ? 0.0 : EfficiencyGrid::view_at((i - 1) / samples);
+        const double x_nm = reach * ((i - 1) % samples + 1) / samples;
+        const glm::dmat3 right = kernel.at(x_nm, v_g) - kernel.at(0.0, v_g);
+        const glm::dmat3 left = kernel.at(0.0, -v_g) - kernel.at(-x_nm, -v_g);
         for (int c = 0; c < 3; ++c)
             for (int o = 0; o < 3; ++o) {
                 largest = std::max(largest, std::abs(right[c][o]));

@@ -19,9 +19,10 @@ namespace rowland::diffraction {
 /// k(x) = ∫ path_density(x, λ) cmf Eᵀ dλ.
 ///
 /// XYZ(v) = d ∫ k(d (a + v_g)) A(a) da + zero_order_xyz() · A(−v_g), A the light's arc profile. 58 kB per order.
+/// Where efficiencies depend on the direction it is k(x; v_g), of one view (PHYSICS §14).
 class ColourKernel {
  public:
-    ColourKernel(const Grating& grating, const colour::LightSpectra& spectra);
+    ColourKernel(const Grating& grating, const colour::LightSpectra& spectra, double v_g = 0.0);
 
     /// k(x), x of either sign; 0 outside [begin_nm(), end_nm()].
     glm::dmat3 operator()(double x_nm) const;
@@ -61,7 +62,7 @@ class ColourKernel {
         int order;
         Curve curve;  ///< over x/order
     };
-    void add_sharp_orders(const Grating& grating, std::span<const glm::dmat3> observed);
+    void add_sharp_orders(const Grating& grating, std::span<const glm::dmat3> observed, double v_g);
     void add_wide_orders(const Grating& grating, const colour::LightSpectra& spectra);
 
     std::vector<OrderCurve> orders_;
@@ -70,25 +71,33 @@ class ColourKernel {
     double end_nm_ = 0.0;
 };
 
-/// 𝒦 at equidistant x over the interval where k is not 0, to be interpolated linearly.
+/// 𝒦 at equidistant x over the interval where k is not 0, to be interpolated linearly; where k depends on the view, at
+/// the views of EfficiencyGrid, between which it is also interpolated.
 struct KernelTable {
     double begin_nm = 0.0;
     double end_nm = 0.0;
-    std::vector<glm::mat3> antiderivative;  ///< first at begin_nm, last at end_nm
+    int views = 1;                          ///< 1, or EfficiencyGrid::kViews
+    std::vector<glm::mat3> antiderivative;  ///< view by view; of each, first at begin_nm, last at end_nm
     /// Largest error of an interpolated component of 𝒦, relative to the largest component of 𝒦(end) − 𝒦(begin);
     /// measured at seven points between any two entries.
     double error = 0.0;
 
-    /// 𝒦(x), clamped to the table's ends.
-    glm::dmat3 at(double x_nm) const;
+    std::size_t entries() const { return antiderivative.size() / static_cast<std::size_t>(views); }
+    /// 𝒦(x; v_g), clamped to the table's ends.
+    glm::dmat3 at(double x_nm, double v_g = 0.0) const;
     /// Mean of k over a non-empty interval.
-    glm::dmat3 average(double begin_nm_wanted, double end_nm_wanted) const;
+    glm::dmat3 average(double begin_nm_wanted, double end_nm_wanted, double v_g = 0.0) const;
+
+ private:
+    glm::dmat3 of_view(std::size_t view, std::size_t entry, double t) const;
 };
 
 /// entries ≥ 2.
 KernelTable tabulate(const ColourKernel& kernel, std::size_t entries = 2048);
+/// The kernel of all views of a grating. Uses all cores.
+KernelTable kernel_table(const Grating& grating, const colour::LightSpectra& spectra);
 
-/// Whether k(−x) = k(x), to the table's rounding: grooves turned by π are then the same grooves.
+/// Whether k(−x; −v_g) = k(x; v_g), to the table's rounding: grooves turned by π are then the same grooves.
 bool is_even(const KernelTable& kernel);
 
 /// The kernel that gives colours of another space instead of XYZ.

@@ -89,10 +89,13 @@ double reflectance(const Grating& grating, double wavelength_nm) {
     return metal * dye_transmittance(grating.cover, wavelength_nm);
 }
 
-double order_efficiency(const Grating& grating, int order, double wavelength_nm, double s_g) {
+double order_efficiency(const Grating& grating, int order, double wavelength_nm, double direction) {
+    if (grating.efficiencies)
+        return dye_transmittance(grating.cover, wavelength_nm) *
+               grating.efficiencies->at(order, wavelength_nm, direction);
     return reflectance(grating, wavelength_nm) * normalization_factor(grating, wavelength_nm) *
            profile_efficiency(grating.profile, grating.pitch_nm, order_sign(grating) * order,
-                              groove_wavelength(grating, wavelength_nm), s_g);
+                              groove_wavelength(grating, wavelength_nm), direction);
 }
 
 double fractional_order_efficiency(const Grating& grating, double fractional_order, double wavelength_nm) {
@@ -110,6 +113,7 @@ std::vector<double> lattice_order_efficiencies(const Grating& grating, double wa
 }
 
 double zero_order_efficiency(const Grating& grating, double wavelength_nm) {
+    if (grating.efficiencies) return order_efficiency(grating, 0, wavelength_nm);
     const double in_grooves_nm = groove_wavelength(grating, wavelength_nm);
     return reflectance(grating, wavelength_nm) *
            (grating.lattice ? lattice_zero_order(*grating.lattice, in_grooves_nm)

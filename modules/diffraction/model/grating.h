@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
+#include <memory>
 #include <optional>
 #include <vector>
 
 #include "engine/colour/illuminant.h"
 #include "engine/colour/spectrum.h"
+#include "modules/diffraction/model/efficiency_grid.h"
 #include "modules/diffraction/model/lattice.h"
 #include "modules/diffraction/model/lobe.h"
 #include "modules/diffraction/model/profile.h"
@@ -83,6 +85,12 @@ inline constexpr double kManyGrooves = 50.0;
 /// Wavelength at which the two normalisations agree.
 inline constexpr double kAguWavelength_nm = 550.0;
 
+/// How the efficiencies of a relief are found.
+enum class Theory {
+    Scalar,   ///< the closed forms of PHYSICS §3, which do not depend on the directions
+    Rigorous  ///< Maxwell's equations, PHYSICS §14
+};
+
 /// A grating: everything that the diffraction term depends on.
 struct Grating {
     double pitch_nm = 0.0;    ///< groove distance d > 0
@@ -98,6 +106,10 @@ struct Grating {
     /// None: the orders are reflected. A sheet that transmits them has no metal and no cover.
     std::optional<Transmission> transmission = std::nullopt;
     std::optional<double> side_reflectance = std::nullopt;  ///< of reflected_side(): R at all wavelengths
+    Theory theory = Theory::Scalar;
+    /// Efficiencies that depend on the direction, the metal included: those of Theory::Rigorous, once they are solved,
+    /// or of a table of several incidences. Null: they do not depend on it.
+    std::shared_ptr<const EfficiencyGrid> efficiencies = nullptr;
 };
 
 /// What a sheet reflects, by the same orders, as a grating of its own; nullopt for nothing.
@@ -126,9 +138,19 @@ double reflectance(const Grating& grating, double wavelength_nm);
 
 /// The weight of order m at wavelength λ in the diffraction term: R(λ) η_m(λ), for the "agu" normalisation times
 /// λ/550 nm (PHYSICS §3). Under a cover η_m and R are those in its medium, and its dye is included; T is not
-/// (PHYSICS §10). A table of several incidences is evaluated for light from s_g. Baked representations use the
-/// default, normal incidence: light and material separate only if η_m does not depend on s_g.
-double order_efficiency(const Grating& grating, int order, double wavelength_nm, double s_g = 0.0);
+/// (PHYSICS §10). Where depends_on_direction(), `direction` is that of the light, s_g, or, which is the same by
+/// reciprocity, that of the view, v_g = mλ/d − s_g.
+double order_efficiency(const Grating& grating, int order, double wavelength_nm, double direction = 0.0);
+
+/// Whether order_efficiency() depends on the direction.
+inline bool depends_on_direction(const Grating& grating) {
+    return grating.theory == Theory::Rigorous || grating.efficiencies != nullptr;
+}
+
+/// Whether its efficiencies are known: a rigorous theory's must be solved (asset/material.h, with_efficiencies()).
+inline bool is_solved(const Grating& grating) {
+    return grating.theory == Theory::Scalar || grating.efficiencies != nullptr;
+}
 
 /// The same at the fractional order d u/λ, from the groove's own spectrum: for fewer than kManyGrooves grooves. A
 /// contract violation for tables.
@@ -138,7 +160,7 @@ double fractional_order_efficiency(const Grating& grating, double fractional_ord
 std::vector<double> lattice_order_efficiencies(const Grating& grating, double wavelength_nm);
 
 /// R(λ) η_0(λ): the fraction of the power in the mirror reflection or, of a sheet, straight through, whatever the
-/// normalisation.
+/// normalisation; at normal incidence.
 double zero_order_efficiency(const Grating& grating, double wavelength_nm);
 
 /// cmf(λ) E(λ)ᵀ per nm, linear RGB in, XYZ out: what a sum over wavelengths multiplies the efficiency with.

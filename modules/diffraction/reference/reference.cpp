@@ -41,11 +41,15 @@ std::vector<ObservedNode> observed_nodes(const colour::LightSpectra& spectra, in
     return nodes;
 }
 
+bool depends_on_incidence(const Grating& grating) {
+    return depends_on_direction(grating) || depends_on_incidence(grating.profile);
+}
+
 /// From kManyGrooves grooves on: order m and wavelength λ lie on one arc.
 std::vector<SpectralTerm> infinite_grooves_terms(const Grating& grating, const colour::LightSpectra& spectra,
                                                  double largest_step, int refinement) {
     std::vector<SpectralTerm> terms;
-    const bool depends_on_s_g = depends_on_incidence(grating.profile);
+    const bool depends_on_s_g = depends_on_incidence(grating);
     for (const int order : grating.orders) {
         const double s_g_per_nm = std::abs(order) / grating.pitch_nm;
         const int nodes_per_nm = refinement * std::max(1, static_cast<int>(std::ceil(s_g_per_nm / largest_step)));
@@ -102,6 +106,7 @@ std::vector<SpectralTerm> spectral_terms(const Grating& grating, const colour::L
     ROWLAND_CHECK_OP(grating.grooves, >=, 1.0);
     ROWLAND_CHECK_OP(largest_step, >, 0.0);
     ROWLAND_CHECK_OP(refinement, >=, 1);
+    ROWLAND_CHECK(is_solved(grating), "a grating of rigorous theory is solved first");
     auto terms = grating.grooves >= kManyGrooves ? infinite_grooves_terms(grating, spectra, largest_step, refinement)
                                                  : finite_grooves_terms(grating, spectra, largest_step, refinement);
     std::erase_if(terms, [](const SpectralTerm& term) { return term.weight == glm::dmat3(0.0); });
@@ -117,8 +122,12 @@ double node_offset(std::size_t arc_index) {
 
 /// A term's weight for light from s_g = a.
 glm::dmat3 weight_at(const Grating& grating, const SpectralTerm& term, double a) {
-    if (!depends_on_incidence(grating.profile)) return term.weight;
-    return order_efficiency(grating, term.order, term.wavelength_nm, a) * term.weight;
+    if (!depends_on_incidence(grating)) return term.weight;
+    // A table itself, not its grid.
+    return (std::holds_alternative<EfficiencyTable>(grating.profile)
+                ? profile_efficiency(grating.profile, grating.pitch_nm, term.order, term.wavelength_nm, a)
+                : order_efficiency(grating, term.order, term.wavelength_nm, a)) *
+           term.weight;
 }
 
 glm::dvec3 point_radiance(const IncidentLight& light, const Grating& grating, const std::vector<SpectralTerm>& terms,

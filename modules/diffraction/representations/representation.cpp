@@ -47,7 +47,11 @@ std::optional<Refusal> lattice_refusal(const RepresentationInfo& info, const Gra
                    "the others shade grooves of one direction"};
 }
 
-std::optional<Refusal> lobe_refusal(const RepresentationInfo& info, const GrooveLobe& lobe) {
+std::optional<Refusal> lobe_refusal(const RepresentationInfo& info, const Grating& grating) {
+    const GrooveLobe& lobe = grating.lobe;
+    if (info.lobes == Lobes::Mirroring && depends_on_direction(grating))
+        return Refusal{"representation", fmt::format("\"{}\" with efficiencies of directions", info.name),
+                       names_for(Lobes::Any), "or \"theory\": \"scalar\""};
     if (info.lobes == Lobes::Flat && !is_flat(lobe))
         return Refusal{"representation", fmt::format("\"{}\" with a groove_lobe that is not flat", info.name),
                        fmt::format("{} or, for narrow lobes, {}", names_for(Lobes::Any), names_for(Lobes::Mirroring)),
@@ -95,7 +99,7 @@ std::optional<Refusal> baked_refusal(const Grating& grating) {
 
 std::optional<Refusal> refusal(const RepresentationInfo& info, const SettingValues& values, const Grating& grating) {
     if (auto refused = lattice_refusal(info, grating)) return refused;
-    if (auto refused = lobe_refusal(info, grating.lobe); refused && !grating.lattice) return refused;
+    if (auto refused = lobe_refusal(info, grating); refused && !grating.lattice) return refused;
     std::optional<Refusal> refused;
     for_each_representation([&]<typename Settings>(std::size_t) {
         if constexpr (requires { Settings::refusal(values, grating); })

@@ -45,19 +45,23 @@ const GpuKernel::Blurred& GpuKernel::blurred() const {
 
 GpuKernel::Smoothed GpuKernel::smooth(std::span<const glm::vec3> light_colours) const {
     const BlurredKernel& kernel = blurred().kernel;
-    // fp16 would add an error of 5e-4 to that of the texture unit's 8-bit weights.
-    Smoothed smoothed{.texture = gpu::Texture({.kind = gpu::TextureKind::PlaneArray,
-                                               .format = gpu::Format::RGBA32F,
-                                               .width = kernel.columns,
-                                               .height = kernel.levels,
-                                               .depth = kFirstColourLayer + static_cast<int>(light_colours.size())},
-                                              {.filter = gpu::Filter::Linear}),
-                      .colours{light_colours.begin(), light_colours.end()}};
+    // fp16 would add an error of 5e-4 to that of the texture unit's 8-bit weights; of several views it is the lesser
+    // one.
+    const bool volume = kernel.views > 1;
+    Smoothed smoothed{
+        .texture = gpu::Texture({.kind = volume ? gpu::TextureKind::Volume : gpu::TextureKind::PlaneArray,
+                                 .format = volume ? gpu::Format::RGBA16F : gpu::Format::RGBA32F,
+                                 .width = kernel.columns,
+                                 .height = kernel.levels,
+                                 .depth = (kFirstColourLayer + static_cast<int>(light_colours.size())) * kernel.views},
+                                {.filter = gpu::Filter::Linear}),
+        .colours{light_colours.begin(), light_colours.end()}};
     const auto upload = [&](const glm::vec3& colour, int layer) {
         std::vector<glm::vec4> texels;
         texels.reserve(kernel.values.size());
         for (const glm::mat3& value : kernel.values) texels.emplace_back(value * colour, 0.0F);
-        smoothed.texture.upload(std::span<const glm::vec4>(texels), {.layer = layer});
+        smoothed.texture.upload(std::span<const glm::vec4>(texels),
+                                {.layer = layer * kernel.views, .layers = kernel.views});
     };
     for (int c = 0; c < 3; ++c) upload(glm::mat3(1.0F)[c], c);
     for (std::size_t i = 0; i < light_colours.size(); ++i)
@@ -66,6 +70,7 @@ GpuKernel::Smoothed GpuKernel::smooth(std::span<const glm::vec3> light_colours) 
 }
 
 void GpuKernel::add_defines(gpu::ProgramDesc& desc) const {
+    if (kernel_.views > 1) desc.defines.push_back({"KERNEL_VIEWS", "1"});
     if (has_zero_order()) desc.defines.push_back({"ZERO_ORDER", "1"});
     if (std::holds_alternative<GaussianLobe>(lobe_)) desc.defines.push_back({"LOBE_GAUSSIAN", "1"});
     if (std::holds_alternative<PitsLobe>(lobe_)) desc.defines.push_back({"LOBE_PITS", "1"});
@@ -98,6 +103,9 @@ void GpuKernel::bind(const gpu::Program& program, std::span<const lighting::KeyL
     program.set("kernel_scale_bias", uniforms.scale_bias);
     program.set("kernel_rows", uniforms.rows);
     program.set("kernel_reach", uniforms.reach);
+    const auto layers = static_cast<float>(kFirstColourLayer + light_colours.size());
+    const auto views = static_cast<float>(blurred().kernel.views);
+    program.set("kernel_views", glm::vec3(1.0F, 0.5F * (views - 1.0F) / views, 0.5F) / layers);
     program.set("zero_order", zero_order_);
     program.set("working_to_rec709", working_to_rec709_);
 }

@@ -1,6 +1,12 @@
 // d k(d u), the colour kernel smoothed by a normal distribution of u: bake/kernel_cells.h. Layers for red, green and
 // blue light, then one for each colour of the scene's lights. Values are in the space of kernel_to_working()'s argument.
+// KERNEL_VIEWS: k depends on the view, and a layer is a slice for each of some v_g.
+#ifdef KERNEL_VIEWS
+TEXTURE_UNIT(10) uniform sampler3D kernel_table;
+uniform vec3 kernel_views;  // factors of the layer and of v_g, and offset, to r
+#else
 TEXTURE_UNIT(10) uniform sampler2DArray kernel_table;
+#endif
 uniform vec4 kernel_scale_bias;  // scale and offset from u to s; deviation of u in row 0; scale of the values
 uniform vec2 kernel_rows;        // scale and offset from log2(deviation of u) to t
 uniform vec2 kernel_reach;       // centre and half-width of the |u| where k is not 0
@@ -42,7 +48,10 @@ float kernel_row(KernelScale scale, float square_width) {
     return biased_log2(square_width) * scale.rows.x + scale.rows.y;
 }
 
-vec3 kernel_texel(KernelScale scale, float u, float t, float layer) {
+vec3 kernel_texel(KernelScale scale, float u, float v_g, float t, float layer) {
+#ifdef KERNEL_VIEWS
+    layer = layer * kernel_views.x + v_g * kernel_views.y + kernel_views.z;
+#endif
     return textureLod(kernel_table, vec3(u * scale.scale_bias.x + scale.scale_bias.y, t, layer), 0.0).xyz;
 }
 
@@ -56,13 +65,14 @@ vec3 zero_order_value(float u, float deviation, vec3 rgb) {
 #endif
 }
 
+// Without KERNEL_VIEWS.
 vec3 kernel_value(float u, float deviation, vec3 rgb) {
     KernelScale scale = kernel_scale();
     float t = kernel_row(scale, 12.0 * deviation * deviation);
     vec3 value = vec3(0.0);
     // Most lights miss the orders: no look-up is needed for them.
     if (kernel_reached(u, 5.0 * max(deviation, scale.scale_bias.z))) {
-        for (int c = 0; c < 3; ++c) value += rgb[c] * kernel_texel(scale, u, t, float(c));
+        for (int c = 0; c < 3; ++c) value += rgb[c] * kernel_texel(scale, u, 0.0, t, float(c));
         value *= kernel_scale_bias.w;
     }
     return value + zero_order_value(u, deviation, rgb);
@@ -157,6 +167,7 @@ float small_light_weight(KernelScale scale, float v_n) { return v_n > 0.0 ? 0.5 
 void add_small_light(KernelScale scale, int i, float weight, vec3 l, float variance, mat3 axes, float v_h, PixelU u,
                      float pitch_factor, inout vec3 sum) {
     float s_g = dot(l, axes[0]);
+    float v_g = u.mean - s_g;
     float shift = variance * s_g;
     u.mean -= 2.0 * shift;
     u.square_width += (variance - shift * s_g) / BOX_VARIANCE;
@@ -166,7 +177,7 @@ void add_small_light(KernelScale scale, int i, float weight, vec3 l, float varia
     vec3 dimmed = (pitch_factor * weight * above * cover_transmittance(above)) *
                   small_light_factor(s_h - 2.0 * variance * s_h + v_h, variance - variance * s_h * s_h);
     // One look-up costs less than a branch around it.
-    sum += dimmed * light_layer_scale[i].y * kernel_texel(scale, pitch_factor * u.mean, t, light_layer_scale[i].x);
+    sum += dimmed * light_layer_scale[i].y * kernel_texel(scale, pitch_factor * u.mean, v_g, t, light_layer_scale[i].x);
 #ifdef ZERO_ORDER
     sum += dimmed / scale.scale_bias.w *
            zero_order_value(pitch_factor * u.mean, pitch_factor * deviation_of(u),

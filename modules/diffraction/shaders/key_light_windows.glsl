@@ -143,7 +143,7 @@ vec3 key_lobe_radiance(KeyLobe lobe, GrooveView view) {
 #endif
         if (!kernel_reached(centre, beyond)) continue;
         float row = kernel_row(scale, square_width);
-        for (int c = 0; c < 3; ++c) sums[c] += light * kernel_texel(scale, centre, row, float(c));
+        for (int c = 0; c < 3; ++c) sums[c] += light * kernel_texel(scale, centre, from, row, float(c));
     }
     // Of the windows and, for concentrations of 3 and more, of the lobe's density.
     float norm = STEP / sqrt(1.0 - WITHIN) / (deviation * 6.28318530717959);

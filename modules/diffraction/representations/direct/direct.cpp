@@ -73,11 +73,20 @@ double widened_density(const GrooveLobe& lobe, double sum_h, double deviation_h,
     return 2.0 / 3.0 * density(sum_h) + 1.0 / 6.0 * (density(sum_h - step) + density(sum_h + step));
 }
 
+glm::dmat3 average(const KernelTable& kernel, double begin_nm, double end_nm, double v_g) {
+    return kernel.average(begin_nm, end_nm, v_g);
+}
+
+/// The exact kernel is that of one view.
+glm::dmat3 average(const ColourKernel& kernel, double begin_nm, double end_nm, double) {
+    return kernel.average(begin_nm, end_nm);
+}
+
 /// Mean of d k(d u) over u ± half, with order 0.
 template <typename Kernel>
-glm::dmat3 mean_over(const Kernel& kernel, const DirectMaterial& material, double u, double half) {
+glm::dmat3 mean_over(const Kernel& kernel, const DirectMaterial& material, double u, double half, double v_g) {
     const double d = material.pitch_nm;
-    glm::dmat3 mean = d * kernel.average(d * (u - half), d * (u + half));
+    glm::dmat3 mean = d * average(kernel, d * (u - half), d * (u + half), v_g);
     if (std::abs(u) < half) mean += material.zero_order_xyz / (2.0 * half);
     return mean;
 }
@@ -87,14 +96,14 @@ template <typename Kernel>
 glm::dmat3 seen_over(const Kernel& kernel, const DirectMaterial& material, const DirectView& view, double centre_g,
                      double half_g) {
     const double half = std::hypot(half_g, view.footprint);
-    return mean_over(kernel, material, centre_g + view.v_g, std::max(half, kNarrowest));
+    return mean_over(kernel, material, centre_g + view.v_g, std::max(half, kNarrowest), view.v_g);
 }
 
 /// The smoothed kernel holds the mean.
 glm::dmat3 seen_over(const BlurredKernel& kernel, const DirectMaterial& material, const DirectView& view,
                      double centre_g, double half_g) {
     const double d = material.pitch_nm;
-    return d * kernel.at(d * (centre_g + view.v_g), d * std::hypot(half_g, view.footprint) / std::sqrt(3.0));
+    return d * kernel.at(d * (centre_g + view.v_g), d * std::hypot(half_g, view.footprint) / std::sqrt(3.0), view.v_g);
 }
 
 /// s_n⁺ d k̄: what direct_radiance() needs of a kernel.

@@ -190,7 +190,8 @@ glm::dmat3 radiance_of(const BlurredKernel& kernel, double pitch_nm, std::span<c
     glm::dmat3 sum(0.0);
     for (const LobeWindow& window : windows) {
         const double deviation = std::hypot(window.deviation_g, footprint / std::sqrt(3.0));
-        sum += 0.5 * window.cosine * pitch_nm * kernel.at(pitch_nm * (window.centre_g + v_g), pitch_nm * deviation);
+        sum +=
+            0.5 * window.cosine * pitch_nm * kernel.at(pitch_nm * (window.centre_g + v_g), pitch_nm * deviation, v_g);
     }
     return sum;
 }

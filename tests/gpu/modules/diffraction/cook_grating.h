@@ -8,9 +8,10 @@
 
 namespace rowland::diffraction {
 
-/// A material of these two JSON objects.
-inline CookedMaterial cook(const std::string& grating, const std::string& quality) {
-    return cook_material(parse_json("{\"grating\":" + grating + ",\"quality\":" + quality + "}", "test"), "test");
+/// A material of these two JSON objects, and further members.
+inline CookedMaterial cook(const std::string& grating, const std::string& quality, const std::string& others = "") {
+    return cook_material(parse_json("{\"grating\":" + grating + ",\"quality\":" + quality + others + "}", "test"),
+                         "test");
 }
 
 /// A planar material of these settings, with a stand-in of few views, as many are slow to bake for a lobe.

@@ -22,9 +22,9 @@ struct LobeReference {
 
 /// Kept by pitch and light, as it is slow to compute.
 const LobeReference& lobe_reference(const CookedMaterial& cooked, const lighting::KeyLight& key) {
-    static std::map<std::tuple<double, double, double, double, double>, LobeReference> tables;
+    static std::map<std::tuple<double, int, double, double, double, double>, LobeReference> tables;
     const double pitch = cooked.material.grating.pitch_nm;
-    const std::tuple name(pitch, key.concentration, key.flux.x, key.flux.y, key.flux.z);
+    const std::tuple name(pitch, cooked.kernel.views, key.concentration, key.flux.x, key.flux.y, key.flux.z);
     const auto found = tables.find(name);
     if (found != tables.end()) return found->second;
     const BlurredKernel& kernel = smoothed(cooked);
@@ -48,11 +48,13 @@ DirectMaterial direct_material(const CookedMaterial& cooked) {
 }
 
 const BlurredKernel& smoothed(const CookedMaterial& cooked) {
-    static std::map<double, BlurredKernel> kernels;  // by the pitch: every grating here has its own
+    // By the pitch: every grating here has its own, and of one view another.
+    static std::map<std::pair<double, int>, BlurredKernel> kernels;
     const double pitch = cooked.material.grating.pitch_nm;
-    const auto found = kernels.find(pitch);
+    const std::pair name(pitch, cooked.kernel.views);
+    const auto found = kernels.find(name);
     if (found != kernels.end()) return found->second;
-    return kernels.emplace(pitch, blur(cooked.kernel, 0.2 * pitch, 4096)).first->second;
+    return kernels.emplace(name, blur(cooked.kernel, 0.2 * pitch, 4096)).first->second;
 }
 
 glm::dvec3 key_light_xyz(const CookedMaterial& cooked, const std::vector<lighting::KeyLight>& keys,

@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstring>
 #include <filesystem>
 #include <limits>
 
@@ -58,6 +60,35 @@ TEST(CookedMaterial, EveryRepresentationIsReadAsItWasWritten) {
             EXPECT_THROW(read_cooked_material(std::span(bytes).first(bytes.size() - missing), "m.material"), Error)
                 << quality;
     }
+}
+
+/// Solved efficiencies are kept, and the kernel of all views follows from them.
+TEST(CookedMaterial, EfficienciesOfRigorousTheoryAreReadAsTheyWereWritten) {
+    nlohmann::json json = small_material();
+    json["metal"] = "Al";
+    json["grating"] = {{"pitch_nm", 500},
+                       {"profile", {{"type", "sinusoidal"}, {"depth_nm", 100}}},
+                       {"theory", "rigorous"},
+                       {"orders", {-1, 1}}};
+    const CookedMaterial original = cook_material(json, "m.json");
+    const std::vector<std::byte> bytes = write_cooked_material(json, original);
+    const CookedMaterial read = read_cooked_material(bytes, "m.material");
+    EXPECT_EQ(read.material.grating.efficiencies->orders, (std::vector<int>{-2, -1, 0, 1, 2}));
+    EXPECT_EQ(read.material.grating.efficiencies->values, original.material.grating.efficiencies->values);
+    EXPECT_EQ(read.kernel.views, EfficiencyGrid::kViews);
+    EXPECT_EQ(read.kernel.antiderivative, original.kernel.antiderivative);
+    EXPECT_NE(read.kernel.average(500, 520, 0.6)[1][1], read.kernel.average(500, 520, 0.0)[1][1]);
+    EXPECT_EQ(write_cooked_material(json, read), bytes);
+
+    std::vector<std::byte> damaged = bytes;
+    const auto* const sought =
+        reinterpret_cast<const std::byte*>(original.material.grating.efficiencies->values.data());
+    const auto at = std::search(damaged.begin(), damaged.end(), sought, sought + 64);
+    ASSERT_NE(at, damaged.end());
+    const float too_large = 1.5F;
+    std::memcpy(&*at, &too_large, sizeof too_large);
+    EXPECT_THAT(rowland::test::message_of([&] { read_cooked_material(damaged, "m.material"); }),
+                ::testing::HasSubstr("an efficiency of 1.5"));
 }
 
 /// A fluorescent lamp's mercury line at 546 nm, order 1: the kernel has a peak there that daylight's has not.
@@ -238,7 +269,7 @@ TEST_F(MaterialOfFiles, ARefusedOneIsNamedAndAMissingOneIsStillADependency) {
     EXPECT_THAT(without.dependencies(), ::testing::Contains(folder_.path() / "t.csv"));
 }
 
-/// The promise about cooked files (content/README.md): version_7.material was written when version 7 was new.
+/// The promise about cooked files (content/README.md): version_8.material was written when version 8 was new.
 constexpr const char* kSource = R"({
   "grating": { "pitch_nm": 1200, "profile": { "type": "lamellar", "duty": 0.4, "depth_nm": 120 }, "orders": [-1, 1] },
   "metal": "Al",

@@ -223,6 +223,27 @@ TEST(MaterialJson, MembersOutOfTheirDomainAreRefusedByFileAndPointer) {
         {sheet(R"({"ior": 1.5}, "metal": "Al")"), {"a metal beside a transmission"}},
         {sheet(R"({"ior": 1.5}, "cover": {"ior": 1.4})"), {"a cover beside a transmission"}},
     };
+    // Rigorous theory.
+    const auto solved = [&](const std::string& profile, const std::string& grating, const std::string& others) {
+        return with_profile(profile, R"(, "theory": "rigorous")" + grating, others);
+    };
+    constexpr const char* sine = R"({"type": "sinusoidal", "depth_nm": 100})";
+    const std::string al = R"(, "metal": "Al")";
+    cases.push_back({with_profile(sine, R"(, "theory": "vector")", al), {"/grating/theory", "rigorous"}});
+    cases.push_back({solved(kTable, "", ""), {"/grating/theory", "relief"}});
+    cases.push_back({solved(kSlit, "", al), {"/grating/theory", "relief"}});
+    cases.push_back({solved(sine, "", ""), {"/grating/theory", "metal"}});
+    cases.push_back({solved(sine, "", R"(, "transmission": {"ior": 1.5})"), {"/grating/theory", "metal"}});
+    cases.push_back({solved(sine, R"(, "grooves": 20)", al), {"/grating/grooves", "rigorous"}});
+    for (const char* representation : {"planar", "streak"})
+        cases.push_back({solved(sine, R"(, "groove_lobe": {"sigma": 0.1})",
+                                al + R"(, "quality": {"representation": ")" + representation + "\"}"),
+                         {"/quality/representation", "directions"}});
+    for (const char* nm : {"190", "20001"}) {
+        std::string text = solved(sine, "", al);
+        text.replace(text.find("1600"), 4, nm);
+        cases.push_back({text, {"/grating/theory", nm}});
+    }
     // JSON has no NaN and no infinity: the text itself is refused.
     for (const char* value : {"NaN", "nan", "Infinity", "-inf", "1e999"}) cases.push_back({pitch(value), {}});
     for (const char* value : {"0", "-1600", "0.5", "1e8", "\"1600\"", "null", "true"})

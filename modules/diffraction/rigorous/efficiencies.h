@@ -1,0 +1,32 @@
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "modules/diffraction/model/efficiency_grid.h"
+#include "modules/diffraction/rigorous/relief.h"
+
+namespace rowland::diffraction {
+
+/// The coarsest grating that is solved: 105 orders of visible light are above the horizon.
+inline constexpr double kCoarsestSolved_nm = 20000.0;
+
+struct SolvedEfficiencies {
+    EfficiencyGrid grid;
+    double error = 0.0;  ///< the largest change of an efficiency by the last orders that were added
+    int solves = 0;
+};
+
+/// The efficiencies of all orders of a relief for light of all visible wavelengths from all directions of the classical
+/// plane, each mean of both polarisations. Converged to 5e-4 or better. Uses all cores, the result does not depend on
+/// their number; shows progress as `name`. Throws Error (input) as solve_converged(), and for a pitch above
+/// kCoarsestSolved_nm or below λ/2, at which no order but 0 propagates.
+///
+/// One solve gives light from directions λ/d apart: a wavelength takes as many as fill the grid's step, of a symmetric
+/// relief half of them.
+SolvedEfficiencies solve_efficiencies(const Relief& relief, colour::Metal metal, const std::string& name);
+
+/// The grid of a grating that relief_of() takes. Those of the last few reliefs are kept.
+std::shared_ptr<const EfficiencyGrid> rigorous_efficiencies(const Grating& grating, const std::string& name);
+
+}  // namespace rowland::diffraction
