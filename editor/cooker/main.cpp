@@ -58,10 +58,20 @@ void check_usage(const Options& options) {
 }
 
 diffraction::CookedMaterial load(const std::filesystem::path& path) {
-    if (path.extension() != ".json") return diffraction::load_cooked_material(path);
+    const auto refuse_directions = [&](const diffraction::Grating& grating) {
+        if (depends_on_direction(grating))
+            refuse_input(path.string(), "/grating", "efficiencies that depend on the direction",
+                         "those of scalar theory or of one incidence", "use \"theory\": \"scalar\"");
+    };
+    if (path.extension() != ".json") {
+        diffraction::CookedMaterial cooked = diffraction::load_cooked_material(path);
+        refuse_directions(cooked.material.grating);
+        return cooked;
+    }
     const diffraction::Material material = diffraction::load_material(path);
+    refuse_directions(material.grating);
     diffraction::require_baked_grooves(material.grating, path.string());
-    return diffraction::bake_kernel(with_efficiencies(material, path.string()));
+    return diffraction::bake_kernel(material);
 }
 
 void add_light(const Options& options, const diffraction::CookedMaterial& cooked,

@@ -63,7 +63,7 @@ CookedSurface SurfaceCook::cook_grating(const diffraction::GltfGrating& grating,
     if (scene_)
         drawable = diffraction::drawable_material(grating, grooves ? &grooves->pitches() : nullptr, source.name, {});
     return {.material = baked(gratings_, bake_key(source.json, drawable, grooves.get()),
-                              [&] { return diffraction::bake_material(drawable); }),
+                              [&] { return diffraction::bake_material(with_efficiencies(drawable, source.name)); }),
             .grooves = grooves,
             .groove_rotation = grating.groove_rotation,
             .has_base = grating.has_base};

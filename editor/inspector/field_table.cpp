@@ -112,6 +112,11 @@ std::vector<Field> order_and_lobe_fields() {
               slider(Number, "/grating/grooves", "Lit grooves", {50.0, 10000.0, "", kLogarithmic}, 1500,
                      "Number N of grooves that are lit together; at least 1. From 50 on an order is a sharp line.",
                      "Lindsay & Agu 2006, eq. 3 (N = 1500)"),
+              choice(
+                  "/grating/theory", "Theory", "scalar", {{"scalar", "scalar"}, {"rigorous", "rigorous"}},
+                  "scalar: closed forms that depend on wavelength alone. rigorous: Maxwell's equations, of lamellar, "
+                  "sinusoidal and blazed grooves of a metal; solving takes seconds, drawing costs the same.",
+                  "Li 1996; Chandezon et al. 1982"),
               choice("/grating/normalization", "Normalisation", "energy", {{"energy", "energy"}, {"agu", "agu"}},
                      "energy: each order has the power of its efficiency. agu: the paper's peak form, each order "
                      "times λ/550 nm; slits only.",

@@ -39,19 +39,19 @@ Json choice_of_quality(Json quality) {
 
 void price_choices(const PriceQuery& query, const std::function<void(const PriceList&)>& report,
                    const std::stop_token& stop) {
-    const bool pinned = query.material.quality.pinned.has_value();
+    const diffraction::Material material = with_efficiencies(query.material, "the material");
+    const bool pinned = material.quality.pinned.has_value();
     const std::vector<diffraction::BudgetProbe> probes = {
         {.name = "the inspector's light", .image = query.probe, .key_lights = query.key_lights}};
-    const diffraction::ErrorMeasure measure = query.material.quality.measure;
-    const std::vector<diffraction::MeasuredViews> views = {diffraction::drawn_views(query.material, query.probe)};
-    diffraction::SearchQuery search{.material = query.material,
+    const diffraction::ErrorMeasure measure = material.quality.measure;
+    const std::vector<diffraction::MeasuredViews> views = {diffraction::drawn_views(material, query.probe)};
+    diffraction::SearchQuery search{.material = material,
                                     .probes = probes,
                                     .views = views,
-                                    .error = diffraction::error_function(measure, query.material.quality.surface),
+                                    .error = diffraction::error_function(measure, material.quality.surface),
                                     .settings = {}};
     if (!query.pinned_only)
-        search.settings =
-            diffraction::budget_candidates(query.material.grating, query.material.quality.surface, query.key_lights);
+        search.settings = diffraction::budget_candidates(material.grating, material.quality.surface, query.key_lights);
     if (pinned) search.first = query.quality;
     diffraction::search(
         search, [&](const diffraction::SearchState& state) { report(list_of(state, measure, pinned)); }, stop);

@@ -38,11 +38,19 @@ std::vector<int> shown_orders(const diffraction::Grating& grating) {
 }
 
 double efficiency_of(const diffraction::Grating& grating, int order, double wavelength_nm, double s_g = 0.0) {
-    return order == 0 ? diffraction::zero_order_efficiency(grating, wavelength_nm)
-                      : diffraction::order_efficiency(grating, order, wavelength_nm, s_g);
+    return order == 0 && !depends_on_direction(grating)
+               ? diffraction::zero_order_efficiency(grating, wavelength_nm)
+               : diffraction::order_efficiency(grating, order, wavelength_nm, s_g);
 }
 
 double absorbed_fraction(const diffraction::Grating& grating, double wavelength_nm, double s_g) {
+    if (grating.theory == diffraction::Theory::Rigorous) {
+        double reflected = 0.0;
+        for (const int order : grating.efficiencies->orders)
+            if (diffraction::diffracted_cosine(s_g, order, wavelength_nm, grating.pitch_nm))
+                reflected += diffraction::order_efficiency(grating, order, wavelength_nm, s_g);
+        return std::max(0.0, 1.0 - reflected);
+    }
     if (const auto* table = std::get_if<diffraction::EfficiencyTable>(&grating.profile)) {
         double reflected = 0.0;
         for (const int order : table->orders)
@@ -203,14 +211,16 @@ AngleCurve angle_curve(const diffraction::Grating& grating, double wavelength_nm
     return curve;
 }
 
-std::vector<EfficiencyCurve> efficiency_curves(const diffraction::Grating& grating, std::size_t most) {
+std::vector<EfficiencyCurve> efficiency_curves(const diffraction::Grating& grating, double s_g, std::size_t most) {
     constexpr int kStep = 4;
     std::vector<std::pair<double, EfficiencyCurve>> curves;  // with the sort key: the negative sum; order 0 first
     for (const int order : shown_orders(grating)) {
         EfficiencyCurve curve{order, {}};
         double sum = 0.0;
         for (int nm = colour::kVisibleMin; nm <= colour::kVisibleMax; nm += kStep) {
-            curve.points.emplace_back(nm, efficiency_of(grating, order, nm));
+            const bool leaves = grating.theory == diffraction::Theory::Scalar ||
+                                diffraction::diffracted_cosine(s_g, order, nm, grating.pitch_nm).has_value();
+            curve.points.emplace_back(nm, leaves ? efficiency_of(grating, order, nm, s_g) : 0.0);
             sum += curve.points.back().y;
         }
         curves.emplace_back(order == 0 ? -HUGE_VAL : -sum, std::move(curve));
@@ -226,11 +236,12 @@ std::vector<EfficiencyCurve> efficiency_curves(const diffraction::Grating& grati
 
 EnergyBalance energy_balance(diffraction::Grating grating, double wavelength_nm, double s_g) {
     grating.normalization = diffraction::Normalization::Energy;
-    EnergyBalance balance{.zero = diffraction::zero_order_efficiency(grating, wavelength_nm),
+    EnergyBalance balance{.zero = efficiency_of(grating, 0, wavelength_nm, s_g),
                           .absorbed = absorbed_fraction(grating, wavelength_nm, s_g)};
     for (const int order : grating.orders) {
         if (order == 0) continue;
         const bool leaves = diffraction::diffracted_cosine(s_g, order, wavelength_nm, grating.pitch_nm).has_value();
+        if (!leaves && grating.theory == diffraction::Theory::Rigorous) continue;
         (leaves ? balance.orders : balance.evanescent) += efficiency_of(grating, order, wavelength_nm, s_g);
     }
     balance.residual = std::max(0.0, 1.0 - balance.orders - balance.zero - balance.evanescent - balance.absorbed);

@@ -47,9 +47,10 @@ struct EfficiencyCurve {
     std::vector<glm::dvec2> points;  ///< (wavelength in nm, efficiency), 380 to 780 nm
 };
 
-/// Efficiencies of the shown orders at normal incidence, sorted by order; at most the `most` strongest orders. Under a
-/// cover: of the light that enters it.
-std::vector<EfficiencyCurve> efficiency_curves(const diffraction::Grating& grating, std::size_t most = 9);
+/// Efficiencies of the shown orders for light from s_g, on which those of scalar theory do not depend, sorted by order;
+/// at most the `most` strongest orders. Under a cover: of the light that enters it.
+std::vector<EfficiencyCurve> efficiency_curves(const diffraction::Grating& grating, double s_g = 0.0,
+                                               std::size_t most = 9);
 
 /// Fractions of the power of one wavelength; they sum to 1. Under a cover: of the light that enters it.
 struct EnergyBalance {

@@ -99,9 +99,27 @@ void draw_angles(const diffraction::Grating& grating, const PaneLight& light) {
     if (plot.hovered()) ImGui::SetTooltip("%s", words.c_str());
 }
 
-void draw_efficiencies(const diffraction::Grating& grating, const std::optional<diffraction::Grating>& compared) {
-    const auto curves = efficiency_curves(grating);
-    const auto others = compared ? efficiency_curves(*compared) : std::vector<EfficiencyCurve>();
+diffraction::Grating by_scalar_theory(diffraction::Grating grating) {
+    grating.theory = diffraction::Theory::Scalar;
+    grating.efficiencies = nullptr;
+    return grating;
+}
+
+/// What the panes show: the document's grating, with rigorous efficiencies once they are solved; until then by scalar
+/// theory.
+diffraction::Grating shown_grating(const OpenDocument& opened) {
+    const diffraction::Grating& grating = opened.document().material().grating;
+    if (is_solved(grating)) return grating;
+    const auto cooked = opened.cooked();
+    return cooked && opened.is_cooked() ? cooked->material.grating : by_scalar_theory(grating);
+}
+
+void draw_efficiencies(const diffraction::Grating& grating, const std::optional<diffraction::Grating>& table,
+                       double s_g, ControlMap& controls) {
+    const bool rigorous = grating.theory == diffraction::Theory::Rigorous;
+    const std::optional<diffraction::Grating> compared = rigorous ? by_scalar_theory(grating) : table;
+    const auto curves = efficiency_curves(grating, s_g);
+    const auto others = compared ? efficiency_curves(*compared, s_g) : std::vector<EfficiencyCurve>();
     double top = 0.0;
     for (const auto* list : {&curves, &others})
         for (const EfficiencyCurve& curve : *list)
@@ -115,12 +133,15 @@ void draw_efficiencies(const diffraction::Grating& grating, const std::optional<
             for (std::size_t k = 0; other.order == curves[i].order && k < other.points.size(); k += 5)
                 plot.marker(other.points[k].x, other.points[k].y, i);
     }
-    const bool table = std::holds_alternative<diffraction::EfficiencyTable>(grating.profile);
-    if (compared)
-        ImGui::TextDisabled(table ? "Lines: the table. Dots: the last scalar profile."
-                                  : "Lines: scalar theory. Dots: the opened table.");
+    const bool of_table = std::holds_alternative<diffraction::EfficiencyTable>(grating.profile);
+    if (rigorous)
+        ImGui::TextDisabled("Lines: rigorous theory, light from the angle above. Dots: scalar theory.");
+    else if (compared)
+        ImGui::TextDisabled(of_table ? "Lines: the table. Dots: the last scalar profile."
+                                     : "Lines: scalar theory. Dots: the opened table.");
     else
-        ImGui::TextDisabled(table ? "From the table." : "Scalar theory. Drop a table (.csv) to compare.");
+        ImGui::TextDisabled(of_table ? "From the table." : "Scalar theory. Drop a table (.csv) to compare.");
+    if (!curves.empty()) controls.note("efficiency", fmt::format("{:.4f}", curves.front().points[40].y));
 }
 
 void draw_kernel(const diffraction::CookedMaterial& cooked) {
@@ -283,7 +304,7 @@ void PatternPane::draw(const View& view, std::shared_ptr<const PatternFigure> pa
 
 void PhysicsPanel::draw(const OpenDocument& opened, const View& view, const Measurement& measurement,
                         ControlMap& controls) {
-    const diffraction::Grating& grating = opened.document().material().grating;
+    const diffraction::Grating grating = shown_grating(opened);
     if (!grating.lattice) draw_light_controls(light_, controls);
     const PointNumbers* numbers = measurement.point_numbers();
     if (pane(grating.lattice ? "Point: colour" : "Point: spectrum and colour"))
@@ -296,7 +317,9 @@ void PhysicsPanel::draw(const OpenDocument& opened, const View& view, const Meas
     if (pane("Diffraction over angle")) draw_angles(grating, light_);
     if (pane("Distribution of power")) draw_energy(grating, light_, controls);
     if (pane("Directions of orders, from above")) draw_directions(grating, light_);
-    if (pane("Efficiency over wavelength")) draw_efficiencies(grating, opened.compared());
+    if (pane("Efficiency over wavelength"))
+        draw_efficiencies(grating, opened.compared(), std::sin(light_.incidence_deg * std::numbers::pi / 180.0),
+                          controls);
     if (pane("Colour over path difference") && opened.cooked()) draw_kernel(*opened.cooked());
     if (pane("Luminance over view, against the reference"))
         numbers != nullptr ? draw_sweep(numbers->sweep) : ImGui::TextDisabled("Computing…");

@@ -33,8 +33,7 @@ ROWLAND_EXPORT(read_material) Material* read_material(const char* json, std::siz
         refuse_input(name, refusal->key, refusal->found, refusal->expected, refusal->remedy);
     if (material->grating().transmission)
         refuse_input(name, "/transmission", "a sheet that transmits", "a reflecting grating", "leave it out");
-    if (material->grating().theory == diffraction::Theory::Rigorous)
-        refuse_input(name, "/grating/theory", "\"rigorous\"", "\"scalar\" in a browser", "leave it out");
+    material->source.material.grating.theory = diffraction::Theory::Scalar;  // solving is not part of the package
     const diffraction::ColourKernel kernel(material->grating(),
                                            colour::LightSpectra(material->source.material.quality.illuminant));
     material->kernel = tabulate(kernel);

@@ -257,6 +257,8 @@ Profile parse_profile(JsonReader json, double pitch_nm, const ReadNamed& read) {
 Representation representation(const Material& material) {
     Representation result = material.quality.pinned.value_or(default_representation(material.grating));
     set_illuminant(result, material.quality.illuminant);
+    // The settings were read before the efficiencies were solved.
+    if (auto* planar = std::get_if<PlanarSettings>(&result)) planar->grating = material.grating;
     return result;
 }
 

@@ -1,5 +1,6 @@
 #include "modules/diffraction/bake/diffraction_pattern.h"
 
+#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -42,7 +43,7 @@ bool is_even_lattice(const Grating& grating) {
 }
 
 void add_order(const Grating& grating, const colour::LightSpectra& spectra, int order, double step,
-               std::vector<DiffractionPattern::Node>& nodes) {
+               std::vector<DiffractionPattern::Node>& nodes, std::vector<glm::dmat3>& observed) {
     constexpr double kFarthest = 2.0;
     const double u_per_nm = order / grating.pitch_nm;
     const int nodes_per_nm = std::max(1, static_cast<int>(std::ceil(std::abs(u_per_nm) / step)));
@@ -52,10 +53,58 @@ void add_order(const Grating& grating, const colour::LightSpectra& spectra, int 
         const double u = u_per_nm * wavelength_nm;
         if (std::abs(u) > kFarthest) break;
         const double step_nm = (i == 0 || i == last ? 0.5 : 1.0) / nodes_per_nm;
-        const glm::dmat3 weight =
-            step_nm * order_efficiency(grating, order, wavelength_nm) * observed_spectra(spectra, wavelength_nm);
-        nodes.push_back({glm::vec2(u, 0.0), static_cast<float>(wavelength_nm), glm::mat3(weight)});
+        observed.push_back(step_nm * observed_spectra(spectra, wavelength_nm));
+        const double efficiency = order_efficiency(grating, order, wavelength_nm);
+        nodes.push_back(
+            {glm::vec2(u, 0.0), static_cast<float>(wavelength_nm), glm::mat3(efficiency * observed.back())});
     }
+}
+
+/// The principal components of η over views: `efficiencies` has a row for each node, weighted by its light.
+DiffractionPattern::ViewTerms view_terms(const Eigen::MatrixXd& efficiencies, const std::vector<glm::dmat3>& observed) {
+    Eigen::VectorXd light(efficiencies.rows());
+    for (Eigen::Index i = 0; i < light.size(); ++i) {
+        const glm::dvec3 white = observed[static_cast<std::size_t>(i)] * glm::dvec3(1.0);
+        light[i] = white.x + white.y + white.z;
+    }
+    const Eigen::MatrixXd weighted = light.asDiagonal() * efficiencies;
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> components(weighted.transpose() * weighted);
+    const Eigen::Index size = efficiencies.cols();
+    DiffractionPattern::ViewTerms terms;
+    double left = components.eigenvalues().sum();
+    const double bearable = kTermError * kTermError * left;
+    for (terms.count = 0; terms.count < kMostTerms && left > bearable; ++terms.count)
+        left -= components.eigenvalues()[size - 1 - static_cast<Eigen::Index>(terms.count)];
+    const Eigen::MatrixXd views = components.eigenvectors().rightCols(static_cast<Eigen::Index>(terms.count));
+    const Eigen::MatrixXd nodes = efficiencies * views;
+    for (Eigen::Index i = 0; i < nodes.rows(); ++i)
+        for (Eigen::Index r = 0; r < nodes.cols(); ++r) terms.by_node.push_back(static_cast<float>(nodes(i, r)));
+    for (Eigen::Index r = 0; r < views.cols(); ++r)
+        for (Eigen::Index j = 0; j < size; ++j) terms.by_view.push_back(static_cast<float>(views(j, r)));
+    for (const glm::dmat3& node : observed) terms.observed.emplace_back(node);
+    return terms;
+}
+
+DiffractionPattern groove_pattern(const Grating& grating, const colour::LightSpectra& spectra, double step) {
+    DiffractionPattern pattern{
+        .nodes = {}, .views = {}, .lobe = grating.lobe, .even = is_even(grating), .cover = grating.cover};
+    std::vector<glm::dmat3> observed;
+    std::vector<int> orders;  // of the nodes
+    for (const int order : grating.orders) {
+        add_order(grating, spectra, order, step, pattern.nodes, observed);
+        orders.resize(pattern.nodes.size(), order);
+    }
+    if (!depends_on_direction(grating) || orders.empty()) return pattern;
+    Eigen::MatrixXd efficiencies(static_cast<Eigen::Index>(orders.size()), Eigen::Index{EfficiencyGrid::kViews});
+    for (Eigen::Index i = 0; i < efficiencies.rows(); ++i)
+        for (int view = 0; view < EfficiencyGrid::kViews; ++view) {
+            const auto node = static_cast<std::size_t>(i);
+            efficiencies(i, view) =
+                order_efficiency(grating, orders[node], static_cast<double>(pattern.nodes[node].wavelength_nm),
+                                 EfficiencyGrid::view_at(view));
+        }
+    pattern.views = view_terms(efficiencies, observed);
+    return pattern;
 }
 
 }  // namespace
@@ -72,12 +121,17 @@ DiffractionPattern diffraction_pattern(const Grating& grating, const colour::Lig
     ROWLAND_CHECK_OP(grating.pitch_nm, >, 0.0);
     if (grating.lattice)
         return {.nodes = lattice_nodes(grating, spectra, step),
+                .views = std::nullopt,
                 .lobe = std::nullopt,
                 .even = is_even(grating),
                 .cover = grating.cover};
-    DiffractionPattern pattern{.nodes = {}, .lobe = grating.lobe, .even = is_even(grating), .cover = grating.cover};
-    for (const int order : grating.orders) add_order(grating, spectra, order, step, pattern.nodes);
-    return pattern;
+    return groove_pattern(grating, spectra, step);
+}
+
+double DiffractionPattern::ViewTerms::at(std::size_t term, double v_g) const {
+    const EfficiencyGrid::ViewCell cell = EfficiencyGrid::view_cell(v_g);
+    const float* const first = by_view.data() + term * EfficiencyGrid::kViews + cell.first;
+    return std::lerp(double{first[0]}, double{first[1]}, cell.weight);
 }
 
 DiffractionPattern shaded_pattern(const Grating& grating, const colour::LightSpectra& spectra, double step) {
@@ -90,6 +144,8 @@ DiffractionPattern shaded_pattern(const Grating& grating, const colour::LightSpe
 DiffractionPattern in_space(DiffractionPattern pattern, const glm::dmat3& xyz_to_space) {
     for (DiffractionPattern::Node& node : pattern.nodes)
         node.weight = glm::mat3(xyz_to_space * glm::dmat3(node.weight));
+    if (pattern.views)
+        for (glm::mat3& observed : pattern.views->observed) observed = glm::mat3(xyz_to_space * glm::dmat3(observed));
     return pattern;
 }
 

@@ -19,18 +19,34 @@ struct DiffractionPattern {
     struct Node {
         glm::vec2 u{0.0F};  ///< (u_g, u_h); u_h is 0 for grooves
         float wavelength_nm = 0.0F;
-        glm::mat3 weight{0.0F};  ///< η cmf Eᵀ dλ: linear RGB in, XYZ or another space out
+        glm::mat3 weight{0.0F};  ///< η cmf Eᵀ dλ: linear RGB in, XYZ or another space out; η at normal incidence
     };
     std::vector<Node> nodes;
+    /// Where η depends on the view: η_i(v_g) = Σ_r by_node[i · count + r] by_view[r · EfficiencyGrid::kViews + j] at
+    /// the grid's views, by as many terms as leave kTermError (RMS, by the light of the nodes), which
+    /// radiance averages to .3 of it, kMostTerms at most.
+    struct ViewTerms {
+        std::size_t count = 1;
+        std::vector<float> by_node;
+        std::vector<float> by_view;
+        std::vector<glm::mat3> observed;  ///< cmf Eᵀ dλ of each node
+
+        /// The factor of a term at a view, linear between the grid's.
+        double at(std::size_t term, double v_g) const;
+    };
+    std::optional<ViewTerms> views;
     std::optional<GrooveLobe> lobe;  ///< D_h; none: δ, as of a lattice
     bool even = false;               ///< P(−u) = P(u)
     std::optional<Cover> cover;      ///< whose T(s_n) is not in P
 };
 
+inline constexpr double kTermError = 0.02;
+inline constexpr std::size_t kMostTerms = 16;
+
 /// Distance in u between the nodes of an order: at most this, and of grooves at most that of 1 nm.
 inline constexpr double kPatternStep = 0.004;
 
-/// Orders are sharp, efficiencies those at normal incidence. Only |u| ≤ 2, beyond which no pair of directions lies.
+/// Orders are sharp. Only |u| ≤ 2, beyond which no pair of directions lies.
 /// `step`: between an order's nodes at most; a lattice's wavelengths are joined where they are closer than that.
 DiffractionPattern diffraction_pattern(const Grating& grating, const colour::LightSpectra& spectra,
                                        double step = kPatternStep);

@@ -81,6 +81,7 @@ class AzimuthPair {
     std::size_t pitch_;  ///< floats of a row; not a power of two, so that a column's floats are not in one cache set
     std::array<std::vector<float>, 2> parts_;   ///< real and imaginary: views.g + 2 kMargin rows
     std::array<std::vector<float>, 2> column_;  ///< a column, and room for a transform's work
+    std::array<std::vector<float>, 2> light_;   ///< a column of the light alone, for patterns of several terms
     std::array<std::vector<float>, 2> work_;
 };
 
@@ -183,15 +184,25 @@ void AzimuthPair::transform_columns() {
             }
         }
         along_g_({column_[0], column_[1]}, work());
-        const float* matrix = spectrum_.at(h).data();
-        for (std::size_t g = 0; g < along_g_.size(); ++g, matrix += LobeSpectrum::kFloats)
-            multiply(matrix, between_g_[g] * between_h_[h], column_[0].data() + kLightLanes * g,
-                     column_[1].data() + kLightLanes * g);
-        along_g_({column_[0], column_[1]}, work());
-        for (std::size_t part = 0; part < 2; ++part)
-            for (int i = 0; i < views; ++i)
-                std::copy_n(column_[part].data() + kLightLanes * static_cast<std::size_t>(i), kLightLanes,
-                            parts_[part].data() + static_cast<std::size_t>(i) * pitch_ + kLightLanes * h);
+        const std::size_t terms = spectrum_.terms();
+        if (terms > 1) light_ = column_;
+        for (std::size_t term = 0; term < terms; ++term) {
+            if (term > 0) column_ = light_;
+            const float* matrix = spectrum_.at(h, term).data();
+            for (std::size_t g = 0; g < along_g_.size(); ++g, matrix += LobeSpectrum::kFloats)
+                multiply(matrix, between_g_[g] * between_h_[h], column_[0].data() + kLightLanes * g,
+                         column_[1].data() + kLightLanes * g);
+            along_g_({column_[0], column_[1]}, work());
+            for (int i = 0; i < views; ++i) {
+                const float factor = spectrum_.factor_at(term, i);
+                for (std::size_t part = 0; part < 2; ++part) {
+                    const float* const from = column_[part].data() + kLightLanes * static_cast<std::size_t>(i);
+                    float* const to = parts_[part].data() + static_cast<std::size_t>(i) * pitch_ + kLightLanes * h;
+                    for (std::size_t lane = 0; lane < kLightLanes; ++lane)
+                        to[lane] = (term == 0 ? 0.0F : to[lane]) + factor * from[lane];
+                }
+            }
+        }
     }
 }
 

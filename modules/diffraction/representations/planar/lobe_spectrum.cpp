@@ -72,16 +72,22 @@ double hat(const std::vector<double>& wavelengths_nm, std::size_t r, double wave
     return std::max(0.0, 1.0 - std::abs(wavelength_nm - wavelengths_nm[r]) / spacing);
 }
 
-TransformedOrders transformed_orders(const DiffractionPattern& pattern, const std::vector<double>& wavelengths_nm,
-                                     std::size_t r, double step, std::size_t size) {
+/// `term`: of the pattern's views.
+TransformedOrders transformed_orders(const DiffractionPattern& pattern, std::size_t term,
+                                     const std::vector<double>& wavelengths_nm, std::size_t r, double step,
+                                     std::size_t size) {
     TransformedOrders orders;
     for (std::size_t c = 0; c < 3; ++c) {
         orders.real[c].assign(kLanes * size, 0.0F);
         orders.imaginary[c].assign(kLanes * size, 0.0F);
     }
-    for (const DiffractionPattern::Node& node : pattern.nodes) {
+    for (std::size_t i = 0; i < pattern.nodes.size(); ++i) {
+        const DiffractionPattern::Node& node = pattern.nodes[i];
         const double fraction = hat(wavelengths_nm, r, static_cast<double>(node.wavelength_nm));
         if (fraction == 0.0) continue;
+        const glm::mat3 of_node =
+            pattern.views ? pattern.views->by_node[i * pattern.views->count + term] * pattern.views->observed[i]
+                          : node.weight;
         const double position = static_cast<double>(node.u.x) / step;
         const double low = std::floor(position);
         for (int offset = 0; offset < 2; ++offset) {
@@ -91,7 +97,7 @@ TransformedOrders transformed_orders(const DiffractionPattern& pattern, const st
             for (std::size_t c = 0; c < 3; ++c)
                 for (std::size_t o = 0; o < 3; ++o)
                     orders.real[c][at + o] +=
-                        static_cast<float>(weight) * node.weight[static_cast<int>(c)][static_cast<int>(o)];
+                        static_cast<float>(weight) * of_node[static_cast<int>(c)][static_cast<int>(o)];
         }
     }
     const FourierTransform transform(size);
@@ -181,14 +187,20 @@ LobeSpectrum::LobeSpectrum(const DiffractionPattern& pattern, const LobeMapViews
     : views_(views),
       even_(pattern.even),
       cover_(pattern.cover),
+      terms_(pattern.views),
+      points_(!pattern.lobe),
       size_g_(std::bit_ceil(2 * static_cast<std::size_t>(views.g))),
       size_h_(std::bit_ceil(2 * static_cast<std::size_t>(views.h))) {
     ROWLAND_CHECK_OP(views.g, >=, 8);
     ROWLAND_CHECK_OP(views.h, >=, 8);
-    if (pattern.lobe)
-        fill_lobe(pattern);
-    else
+    if (points_)
         fill_points(pattern);
+    else
+        fill_lobe(pattern);
+}
+
+float LobeSpectrum::factor_at(std::size_t term, int view_g) const {
+    return terms_ ? static_cast<float>(terms_->at(term, 2.0 * view_g / (views_.g - 1) - 1.0)) : 1.0F;
 }
 
 double LobeSpectrum::factor() const {
@@ -199,21 +211,25 @@ double LobeSpectrum::factor() const {
 void LobeSpectrum::fill_lobe(const DiffractionPattern& pattern) {
     const std::vector<double> wavelengths_nm = wavelengths_of(*pattern.lobe);
     std::vector<std::vector<double>> lobes(wavelengths_nm.size());
-    std::vector<TransformedOrders> orders(wavelengths_nm.size());
-    parallel_for(wavelengths_nm.size(), [&](std::size_t r) {
-        lobes[r] = transformed_lobe(*pattern.lobe, wavelengths_nm[r], views_.step_h(), size_h_);
-        orders[r] = transformed_orders(pattern, wavelengths_nm, r, views_.step_g(), size_g_);
+    std::vector<TransformedOrders> orders(wavelengths_nm.size() * terms());  // by term
+    parallel_for(orders.size(), [&](std::size_t i) {
+        const std::size_t r = i % wavelengths_nm.size();
+        const std::size_t term = i / wavelengths_nm.size();
+        if (term == 0) lobes[r] = transformed_lobe(*pattern.lobe, wavelengths_nm[r], views_.step_h(), size_h_);
+        orders[i] = transformed_orders(pattern, term, wavelengths_nm, r, views_.step_g(), size_g_);
     });
-    matrices_.assign((size_h_ / 2 + 1) * size_g_ * kFloats, 0.0F);
-    parallel_for(size_h_ / 2 + 1, [&](std::size_t h) {
+    matrices_.assign(terms() * rows() * size_g_ * kFloats, 0.0F);
+    parallel_for(terms() * rows(), [&](std::size_t row) {
+        const std::size_t h = row % rows();
+        const TransformedOrders* const of_term = orders.data() + row / rows() * lobes.size();
         for (std::size_t g = 0; g < size_g_; ++g) {
-            float* to = matrices_.data() + (h * size_g_ + g) * kFloats;
+            float* to = matrices_.data() + (row * size_g_ + g) * kFloats;
             for (std::size_t r = 0; r < lobes.size(); ++r) {
                 const auto weight = static_cast<float>(factor() * lobes[r][h]);
                 for (std::size_t c = 0; c < 3; ++c)
                     for (std::size_t o = 0; o < 3; ++o) {
-                        to[kLanes * c + o] += weight * orders[r].real[c][kLanes * g + o];
-                        to[kLanes * (3 + c) + o] += weight * orders[r].imaginary[c][kLanes * g + o];
+                        to[kLanes * c + o] += weight * of_term[r].real[c][kLanes * g + o];
+                        to[kLanes * (3 + c) + o] += weight * of_term[r].imaginary[c][kLanes * g + o];
                     }
             }
         }
@@ -232,10 +248,9 @@ void LobeSpectrum::fill_points(const DiffractionPattern& pattern) {
     });
 }
 
-std::span<const float> LobeSpectrum::at(std::size_t frequency_h) const {
-    const bool whole = matrices_.size() == size_h_ * size_g_ * kFloats;
-    const std::size_t row = whole ? frequency_h : std::min(frequency_h, size_h_ - frequency_h);
-    return std::span(matrices_).subspan(row * size_g_ * kFloats, size_g_ * kFloats);
+std::span<const float> LobeSpectrum::at(std::size_t frequency_h, std::size_t term) const {
+    const std::size_t row = points_ ? frequency_h : std::min(frequency_h, size_h_ - frequency_h);
+    return std::span(matrices_).subspan((term * rows() + row) * size_g_ * kFloats, size_g_ * kFloats);
 }
 
 }  // namespace rowland::diffraction

@@ -35,10 +35,15 @@ class LobeSpectrum {
     std::size_t size_g() const { return size_g_; }
     std::size_t size_h() const { return size_h_; }
 
+    /// Terms of the pattern: 1 if it does not depend on the view.
+    std::size_t terms() const { return terms_ ? terms_->count : 1; }
+    /// The factor of a term at a node of the views along g.
+    float factor_at(std::size_t term, int view_g) const;
+
     /// Three columns of a complex 3 × 3 matrix: the real parts, four floats a column, then the imaginary ones.
     static constexpr std::size_t kFloats = 24;
-    /// The matrices of all frequencies along g at one frequency along h.
-    std::span<const float> at(std::size_t frequency_h) const;
+    /// A term's matrices of all frequencies along g at one frequency along h.
+    std::span<const float> at(std::size_t frequency_h, std::size_t term = 0) const;
 
  private:
     /// Grooves: the transforms of orders along g times those of lobes along h.
@@ -47,13 +52,17 @@ class LobeSpectrum {
     void fill_points(const DiffractionPattern& pattern);
     /// The factor of the matrices.
     double factor() const;
+    /// Rows of matrices of a term.
+    std::size_t rows() const { return points_ ? size_h_ : size_h_ / 2 + 1; }
 
     LobeMapViews views_;
     bool even_;
     std::optional<Cover> cover_;
+    std::optional<DiffractionPattern::ViewTerms> terms_;
+    bool points_;  ///< a pattern without a lobe
     std::size_t size_g_;
     std::size_t size_h_;
-    std::vector<float> matrices_;  ///< rows of size_g: size_h/2 + 1 of a lobe, which is even, size_h of points
+    std::vector<float> matrices_;  ///< rows of size_g: size_h/2 + 1 of a lobe, which is even, size_h of points; by term
 };
 
 }  // namespace rowland::diffraction

@@ -91,10 +91,6 @@ std::optional<Refusal> PlanarSettings::refusal(const SettingValues& values, cons
         return Refusal{"views_h", fmt::format("{} with the flat groove_lobe", values.number_or("views_h", 0)),
                        "no views_h: the map of a flat lobe does not depend on v_h"};
     }
-    if (depends_on_direction(grating))
-        return Refusal{"representation",
-                       "\"planar\" with a groove_lobe that is not flat and efficiencies of directions",
-                       "\"arc\", or \"theory\": \"scalar\"", "a map of such a lobe takes its orders at one direction"};
     if (values.number("map_resolution") <= kMostLobeViews) return std::nullopt;
     return Refusal{"map_resolution",
                    fmt::format("{} with {}", values.number("map_resolution"),

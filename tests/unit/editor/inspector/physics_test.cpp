@@ -63,7 +63,7 @@ TEST(AngleCurve, TheCurveReachesThePeaksAndAscends) {
 TEST(EfficiencyCurves, AreTheModelsAndOfManyOrdersTheStrongest) {
     diffraction::Grating many = kCd;
     many.orders = {-4, -3, -2, -1, 1, 2, 3, 4};
-    const auto curves = efficiency_curves(many, 5);
+    const auto curves = efficiency_curves(many, 0.0, 5);
     ASSERT_EQ(curves.size(), 5U);
     std::vector<int> orders;
     for (const EfficiencyCurve& curve : curves) orders.push_back(curve.order);
