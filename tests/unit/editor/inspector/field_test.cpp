@@ -154,6 +154,10 @@ TEST(Fields, EveryChoiceIsASaneMaterial) {
             for (const Choice& choice : field.choices) {
                 if (choice.name == "table") continue;  // needs a file
                 Json material = suited_to(field);
+                if (choice.name == "rigorous") {
+                    material["grating"]["profile"] = {{"type", "sinusoidal"}, {"depth_nm", 100.0}};
+                    material["metal"] = "Al";
+                }
                 if (choice.name == "streak") material["grating"]["groove_lobe"] = {{"sigma", 0.1}};
                 Json chosen = with_choice(material, field, choice.name);
                 if (choice.name == "height_map") chosen["grating"]["profile"]["file"] = "wing_cell.png";

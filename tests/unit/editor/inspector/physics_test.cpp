@@ -276,8 +276,8 @@ struct Lit {
 Lit lit(const char* material, const std::filesystem::path& probe) {
     lighting::ProbeImage image(image::load_image(probe), lighting::Mapping::Equirectangular);
     diffraction::EvaluationLight light(image, 16, math::SphericalWindow::None);
-    return {diffraction::bake_material(Document::open(kMaterials / material).material()), std::move(image),
-            std::move(light)};
+    return {diffraction::bake_material(with_efficiencies(Document::open(kMaterials / material).material(), material)),
+            std::move(image), std::move(light)};
 }
 
 // The panes' numbers follow material and probe, and are what the programs print of them.
@@ -287,7 +287,7 @@ TEST(PointRadiance, IsWhatEvaluatePrints) {
     const test::TemporaryFolder folder;
     glm::dvec3 last(0.0);
     for (const auto& [material, probe] :
-         {std::pair{"cd.json", venice}, std::pair{"ruled_1200.json", venice}, std::pair{"ruled_1200.json", sunset}}) {
+         {std::pair{"cd.json", venice}, std::pair{"ruled_1200.json", venice}, std::pair{"cd.json", sunset}}) {
         const auto [cooked, image, light] = lit(material, probe);
         const PointRadiance point = point_radiance(cooked, image, light, kFrame, kUniform);
 

@@ -58,7 +58,7 @@ class RigorousRadiance : public ::testing::Test {
 };
 
 /// Measured: reference .0027, scalar theory .072, planar .0018, circle .0020, arc of 16 key lights .0273 of which .029
-/// are those of scalar theory too.
+/// remain with scalar theory.
 TEST_F(RigorousRadiance, IsThatOfAnotherProgram) {
     const Material rigorous = with_efficiencies(parse_material(grooves("rigorous"), "test"), "test");
     EXPECT_LT(reference_error(rigorous), 0.005);
