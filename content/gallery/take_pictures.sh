@@ -46,6 +46,17 @@ for material in cd_pressed holographic_foil ruled_600 butterfly_wing diffraction
         --probe "$root/build/release/cooked/captured_interior.probe" --capture "$work/$material.png"
     convert "$work/$material.png" -crop 324x300+160+30 +repage -resize 50% -quality 85 "$here/look_$material.jpg"
 done
+# Scalar theory above rigorous theory.
+for theory in scalar rigorous; do
+    for material in cd_pressed dvd blu_ray; do
+        sed "s/\"theory\": \"rigorous\"/\"theory\": \"$theory\"/" "$root/content/materials/$material.json" \
+            >"$work/$material.json"
+        demo --disc --material "$work/$material.json" --bloom 0.03 --width 640 --height 360 \
+            --probe "$root/build/release/cooked/captured_interior.probe" --capture "$work/${theory}_$material.png"
+    done
+done
+montage "$work"/scalar_{cd_pressed,dvd,blu_ray}.png "$work"/rigorous_{cd_pressed,dvd,blu_ray}.png \
+    -crop 324x300+160+30 +repage -tile 3x2 -geometry 320x296+2+2 -background "#222" -quality 85 "$here/rigorous.jpg"
 mkdir "$work/film"
 demo --disc --material "$root/content/materials/cd_pressed.json" --frames 96 --width 480 --height 300 --bloom 0.04 \
     --probe "$root/build/release/cooked/captured_interior.probe" --capture "$work/film/frame.png"

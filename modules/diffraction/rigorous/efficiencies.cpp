@@ -70,7 +70,7 @@ struct Margin {
 };
 
 Margin margin_at(const Relief& relief, std::complex<double> index, double wavelength_nm) {
-    const Converged converged = solve_converged(relief, index, wavelength_nm, kConvergedFor);
+    const Converged converged = solve_converged(relief, index, wavelength_nm, kConvergedFor, kGridTolerance);
     return {converged.truncation - converged.added - first_truncation(relief, index, wavelength_nm), converged.error};
 }
 

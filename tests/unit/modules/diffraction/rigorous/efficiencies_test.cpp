@@ -47,7 +47,7 @@ TEST(RigorousEfficiencies, TheGridIsWhatSingleSolvesGive) {
     const double error = interpolation_error(solved, disc, colour::Metal::Al, 60);
     RecordProperty("error", std::to_string(error));
     EXPECT_LT(error, 0.02);
-    EXPECT_LE(solved.error, 5e-4);
+    EXPECT_LE(solved.error, kGridTolerance);
 }
 
 }  // namespace
