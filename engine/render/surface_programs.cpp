@@ -140,6 +140,8 @@ void add_defines(SurfaceFeatures features, gpu::ProgramDesc& desc) {
     // Where the normal is not the mesh's, ambient light is the pixel's.
     if ((features & (feature::kNormalMap | feature::kDoubleSided | feature::kUnlit)) != 0)
         remove("AMBIENT_AT_VERTICES", desc);
+    // A mirror under a normal map is blurred by what the map's normals vary.
+    if ((features & feature::kNormalMap) != 0) remove("MATERIAL_CURVED_MIRROR", desc);
     for (const char* effect : {"OBJECT_REFLECTIONS", "MATERIAL_CURVED_MIRROR", "WEAR_MAP"})
         if (fragment_samplers(desc) > kGuaranteedSamplers) remove(effect, desc);
 }

@@ -14,8 +14,10 @@ namespace rowland::render {
 
 /// How an image's bytes are read.
 enum class TexelMeaning {
-    Linear,  ///< numbers: roughness, normals
+    Linear,  ///< numbers: roughness
     Srgb,    ///< encoded colours; alpha is linear
+    Normal,  ///< RGB: unit vectors. On the GPU levels hold their means, unit, and in alpha half the root of the sum of
+             ///< their slopes' variances
 };
 
 /// How an imported texture is sampled: as its file says, anisotropic where it has levels.

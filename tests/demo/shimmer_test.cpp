@@ -228,8 +228,9 @@ scene::Camera at_gratings(scene::Camera view) {
 
 /// Measures views under a probe, prints the table, and holds: jumps of at most 4 %, or little more than the content's
 /// own, and still pictures within 5 % of those of 16 samples. The wing cases have striae and punctures finer than the
-/// pixels of these views, which shade one of them: 34 % off at most, up to white, and 6 % more jumps than their content
-/// has; held to 36 and 7. On the record a lamp's orders lie five pixels apart: 6.6 % at most, held to 7.
+/// pixels of these views, whose lobes are as wide in all directions: 23 % off at most, up to white, and 6 % more jumps
+/// than their content has; held to 24 and 6.5. On the record a lamp's orders lie five pixels apart: 6.6 % at most, held
+/// to 7.
 void hold_goals(Shimmer& shimmer, const demo::Options& options, const std::string& probe,
                 const std::vector<std::size_t>& views) {
     shimmer.use_probe(options.cooked_folder / (probe + ".probe"));
@@ -242,10 +243,10 @@ void hold_goals(Shimmer& shimmer, const demo::Options& options, const std::strin
                 where, found.pixels, 100.0 * found.jumping, 100.0 * found.content_jumping, 100.0 * found.error,
                 100.0 * found.displayed);
             if (object == "glitter card") continue;  // a facet for each pixel, not the mean of those it covers
-            const double more = object == "wing cases" ? 0.07 : 0.025;
+            const double more = object == "wing cases" ? 0.065 : 0.025;
             EXPECT_LE(found.jumping, std::max(Shimmer::kCalm, found.content_jumping + more)) << where;
             if (object == "wing cases")
-                EXPECT_LE(found.displayed, 0.36) << where;
+                EXPECT_LE(found.displayed, 0.24) << where;
             else
                 EXPECT_LE(found.error, object == "record" ? 0.07 : 0.05) << where;
         }

@@ -199,9 +199,9 @@ TEXTURE_UNIT(18) uniform samplerCube mirror_map;  // the environment with box-fi
 
 // What a mirror shows, averaged over the pixel: a curved one spreads the directions over many texels, and a lamp may be
 // one. Uses derivatives: call it in uniform control flow.
-vec3 mirrored_light(vec3 direction) {
+vec3 mirrored_light(vec3 direction, vec3 n) {
     return with_surroundings(texture(mirror_map, direction).rgb * environment.y, direction, 0.0);
 }
 #else
-vec3 mirrored_light(vec3 direction) { return environment_light(direction, 0.0); }
+vec3 mirrored_light(vec3 direction, vec3 n) { return environment_light(direction, seen_roughness(0.0, n)); }
 #endif

@@ -181,7 +181,7 @@ vec3 diffuse_probe_light(vec3 n) {
 // is hidden.
 vec3 base_radiance(inout vec4 base, vec3 n, vec3 v, inout vec3 added) {
     vec2 factors = surface_metallic_roughness();
-    float roughness = factors.y;
+    float roughness = seen_roughness(factors.y, n);
 #ifdef WEAR_MAP
     roughness = mix(roughness, max(roughness, GREASE_ROUGHNESS), wear.grease);
 #endif
@@ -247,7 +247,7 @@ void write_surface(MaterialTerms terms) {
 #ifdef WEAR_MAP
     terms.mirror_weight *= 1.0 - wear.grease;
 #endif
-    sum += terms.mirror_weight * mirrored_light(reflect(-v, n));
+    sum += terms.mirror_weight * mirrored_light(reflect(-v, n), n);
 #endif
 #ifdef WEAR_MAP
     sum = worn(sum, n, v, diffuse_probe_light(n));

@@ -55,7 +55,8 @@ vec2 surface_metallic_roughness() { return metallic_roughness.xy; }
 #endif
 
 #ifdef NORMAL_MAP
-TEXTURE_UNIT(5) uniform sampler2D normal_map;
+TEXTURE_UNIT(5) uniform sampler2D normal_map;  // TexelMeaning::Normal in engine/render/surface_textures.h
+vec4 normal_texel() { return texture(normal_map, map_coordinates(2, NORMAL_MAP)); }
 #endif
 // World space, unit, on the side that is seen.
 vec3 surface_normal() {
@@ -63,7 +64,7 @@ vec3 surface_normal() {
 #ifdef NORMAL_MAP
     vec3 t = normalize(world_tangent.xyz);
     vec3 b = cross(n, t) * world_tangent.w;
-    vec3 bent = texture(normal_map, map_coordinates(2, NORMAL_MAP)).xyz * 2.0 - 1.0;
+    vec3 bent = normal_texel().xyz * 2.0 - 1.0;
     bent.xy *= map_strength.x;
     n = normalize(t * bent.x + b * bent.y + n * bent.z);
 #endif
@@ -90,6 +91,22 @@ vec3 surface_emission() {
 #else
 vec3 surface_emission() { return emissive.rgb; }
 #endif
+
+// Perceptual roughness of a lobe that is widened by what the normals vary within the pixel: GGX's alpha^2 by the sum of
+// the slopes' variances [Tokuyoshi & Kaplanyan 2019], those within the map's texels and that of a box as wide as the
+// pixel. A surface without a normal map is taken as smooth. Uses derivatives: call it in uniform control flow.
+float seen_roughness(float roughness, vec3 n) {
+#ifdef NORMAL_MAP
+    float deviation = 2.0 * map_strength.x * normal_texel().a;
+    vec3 right = dFdx(n);
+    vec3 up = dFdy(n);
+    float variance = min((dot(right, right) + dot(up, up)) / 12.0, 0.18) + deviation * deviation;
+    float square = roughness * roughness;
+    return sqrt(sqrt(min(square * square + variance, 1.0)));
+#else
+    return roughness;
+#endif
+}
 
 // Toward the eye, unit.
 vec3 to_eye() { return normalize(eye.xyz - world_position); }
