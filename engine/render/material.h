@@ -48,6 +48,7 @@ struct StandardMaterial {
     float clear_coat = 0.0F;  ///< strength of a dielectric layer on top, 0 to 1; not of a material type's surface
     float clear_coat_roughness = 0.0F;  ///< perceptual
     SurfaceTexture wear_texture = {};   ///< scene::wear_map()
+    bool scratched = true;              ///< whether scratches are in it
 };
 
 /// A DirectionalLight of the scene in world axes.

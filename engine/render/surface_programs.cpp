@@ -9,7 +9,7 @@ namespace rowland::render {
 
 namespace {
 
-constexpr std::array<std::pair<SurfaceFeatures, const char*>, 19> kSwitches = {
+constexpr std::array<std::pair<SurfaceFeatures, const char*>, 20> kSwitches = {
     {{feature::kColours, "HAS_COLOURS"},
      {feature::kSkinned, "SKINNED"},
      {feature::kTextureTransformExtension, "TEXTURE_TRANSFORM"},
@@ -28,7 +28,8 @@ constexpr std::array<std::pair<SurfaceFeatures, const char*>, 19> kSwitches = {
      {feature::kLocalReflections, "LOCAL_REFLECTIONS"},
      {feature::kObjectReflections, "OBJECT_REFLECTIONS"},
      {feature::kRoughReflections, "ROUGH_REFLECTIONS"},
-     {feature::kFromEye, "FROM_EYE"}}};
+     {feature::kFromEye, "FROM_EYE"},
+     {feature::kScratches, "WEAR_SCRATCHES"}}};
 
 bool is_identity(const scene::TextureTransform& transform) {
     return transform.offset == glm::vec2(0.0F) && transform.rotation == 0.0F && transform.scale == glm::vec2(1.0F);
@@ -66,6 +67,7 @@ SurfaceFeatures features_of(const StandardMaterial& material, const GpuMesh& mes
     if (mesh.has_colours()) features |= feature::kColours;
     if (skinned) features |= feature::kSkinned;
     if (material.double_sided) features |= feature::kDoubleSided;
+    if (material.wear_texture && material.scratched) features |= feature::kScratches;
     if (material.clear_coat > 0.0F) features |= feature::kClearCoat;
     if (material.roughness == 0.0F) features &= ~feature::kRoughReflections;
     if (material.alpha_mode == scene::AlphaMode::Mask) features |= feature::kAlphaMask;
@@ -77,14 +79,16 @@ SurfaceFeatures features_of(const StandardMaterial& material, const GpuMesh& mes
 }
 
 SurfaceFeatures without_light(SurfaceFeatures features) {
-    features &= ~(feature::kLights | feature::kDoubleSided | feature::kClearCoat | feature::kPassesLight);
+    features &=
+        ~(feature::kLights | feature::kDoubleSided | feature::kClearCoat | feature::kPassesLight | feature::kScratches);
     return keep_maps(features, feature::kBaseColourMap | feature::kEmissiveMap) | feature::kUnlit;
 }
 
 SurfaceFeatures of_shadow(SurfaceFeatures features) {
     if ((features & feature::kAlphaMask) == 0) return features & feature::kSkinned;
     return keep_maps(features, feature::kBaseColourMap) &
-           ~(feature::kLights | feature::kDoubleSided | feature::kUnlit | feature::kAlphaBlend | feature::kClearCoat);
+           ~(feature::kLights | feature::kDoubleSided | feature::kUnlit | feature::kAlphaBlend | feature::kClearCoat |
+             feature::kScratches);
 }
 
 std::vector<gpu::Define> defines_of(SurfaceFeatures features) {

@@ -16,7 +16,7 @@
 namespace rowland::render {
 
 /// What an object's shaders must do, a bit each. A program does only what its objects need.
-using SurfaceFeatures = std::uint32_t;
+using SurfaceFeatures = std::uint64_t;
 
 namespace feature {
 inline constexpr SurfaceFeatures kColours = 1U << 0U;
@@ -46,6 +46,7 @@ inline constexpr SurfaceFeatures kSoftShadows = 1U << 28U;
 inline constexpr SurfaceFeatures kLocalReflections = 1U << 29U;
 inline constexpr SurfaceFeatures kFromEye = 1U << 30U;  ///< of a surface's outline: as the camera sees it
 inline constexpr SurfaceFeatures kObjectReflections = 1U << 31U;
+inline constexpr SurfaceFeatures kScratches = 1ULL << 32U;  ///< in the map of wear
 inline constexpr SurfaceFeatures kEffects =
     kAmbientOcclusion | kSoftShadows | kLocalReflections | kObjectReflections | kRoughReflections;
 inline constexpr SurfaceFeatures kLights =

@@ -136,7 +136,8 @@ StandardMaterial make_material(const scene::MaterialDescription* description, Su
             .unlit = from.unlit,
             .clear_coat = from.clear_coat,
             .clear_coat_roughness = from.clear_coat_roughness,
-            .wear_texture = texture(from.wear_texture, TexelMeaning::Linear)};
+            .wear_texture = texture(from.wear_texture, TexelMeaning::Linear),
+            .scratched = from.wear && from.wear->scratches > 0.0F};
 }
 
 }  // namespace rowland::render

@@ -132,6 +132,10 @@ vec3 direct_light(vec3 n, vec3 v, vec3 diffuse, vec3 f0, float roughness, inout 
 vec3 direct_light(vec3 n, vec3 v, vec3 diffuse, vec3 f0, float roughness, inout vec3 added) { return vec3(0.0); }
 #endif
 
+#ifdef WEAR_MAP
+vec3 lobe_light = vec3(0.0);  // that lobe_reflection() found in the environment
+#endif
+
 // The lobe's reflection of the environment. `dfg`: split_sum_dfg().
 #ifdef ROUGH_REFLECTIONS
 // Sum over parts of the lobe: the light of a part times the reflectance of microfacets at its angle.
@@ -143,6 +147,9 @@ vec3 lobe_reflection(vec3 n, vec3 v, vec3 f0, float n_v, float roughness, vec2 d
     vec3 sum = vec3(0.0);
     for (int i = 0; i < 4; ++i) {
         vec3 light = environment_light(mix(mirrored, n, nodes.leans[i]), roughnesses[i]);
+#ifdef WEAR_MAP
+        lobe_light += nodes.weights[i] * light;
+#endif
 #ifdef MATERIAL_SPECULAR
         sum += nodes.weights[i] * reflect_specular(light, f0, nodes.cosines[i]);
 #else
@@ -154,6 +161,9 @@ vec3 lobe_reflection(vec3 n, vec3 v, vec3 f0, float n_v, float roughness, vec2 d
 #else
 vec3 lobe_reflection(vec3 n, vec3 v, vec3 f0, float n_v, float roughness, vec2 dfg) {
     vec3 light = environment_light(lobe_direction(n, v, roughness), roughness);
+#ifdef WEAR_MAP
+    lobe_light = light;
+#endif
 #if defined(MATERIAL_SPECULAR_LOBE)
     return reflect_lobe(light, f0, n_v, roughness, dfg);
 #elif defined(MATERIAL_SPECULAR)
@@ -216,12 +226,9 @@ vec3 base_reflectance(vec3 colour, float n_v) {
 vec3 material_reflectance() { return vec3(0.0); }
 #endif
 
-// What grease leaves of the material's own light, and what it scatters of that in place of the material.
-vec3 greased(vec3 added, vec3 n, vec3 v) {
-    if (wear.grease < 0.004) return added;
-    vec3 light = environment_light(lobe_direction(n, v, GREASE_ROUGHNESS), GREASE_ROUGHNESS);
-    return mix(added, material_reflectance() * light, wear.grease);
-}
+// What grease leaves of the material's own light, and what it scatters of that in place of the material, whose base is
+// then as rough.
+vec3 greased(vec3 added) { return mix(added, material_reflectance() * lobe_light, wear.grease); }
 #endif
 
 // Writes the surface with what a material adds to and leaves of it: the end of main(), which begins with
@@ -239,7 +246,7 @@ void write_surface(MaterialTerms terms) {
 #endif
     sum += terms.base_weight * base_radiance(base, n, v, terms.added);
 #ifdef WEAR_MAP
-    sum += greased(terms.added, n, v);
+    sum += greased(terms.added);
 #else
     sum += terms.added;
 #endif

@@ -1,6 +1,7 @@
 // What marks of use do to a surface, against their formulas.
 #include <cmath>
 
+#include "engine/render/surface_textures.h"
 #include "engine/scene/light.h"
 #include "tests/gpu/render_test.h"
 
@@ -60,6 +61,24 @@ TEST_F(WearTest, ScratchesOnlyTurnLight) {
         const glm::vec4 pixel = middle(mirror_, wear(0.0F, 0.0F, twice));
         for (int c = 0; c < 3; ++c) EXPECT_NEAR(pixel[c], kGold[c], kLobeError);
     }
+}
+
+/// Scratches cost look-ups and a term for each light: a material without them has a program without their code.
+TEST_F(WearTest, AMaterialWithoutScratchesHasNoCodeForThem) {
+    scene::MaterialDescription description;
+    const scene::ImportedScene scene;
+    SurfaceTextures textures(scene);
+    for (const float scratches : {0.0F, 0.1F}) {
+        description.wear = scene::Wear{.scratches = scratches, .dust = 0.5F};
+        EXPECT_EQ(make_material(&description, textures).scratched, scratches > 0.0F);
+    }
+    renderer_.set_probe(even_light(1.0F));
+    set_sun({0.0F, 0.2F, 1.0F}, false);
+    StandardMaterial unscratched = mirror_;
+    unscratched.scratched = false;
+    const SurfaceTexture map = wear(0.0F, 0.0F, {1.0F, 0.0F});
+    EXPECT_EQ(middle(unscratched, map), middle(mirror_, {}));
+    EXPECT_NE(middle(mirror_, map), middle(mirror_, {}));
 }
 
 TEST_F(WearTest, GreaseIsRoughness) {

@@ -224,7 +224,7 @@ class ProgramLimits : public rowland::test::GlTest {};
 TEST_F(ProgramLimits, TheLargestProgramsKeepToWhatOpenGlGuarantees) {
     using namespace render::feature;
     constexpr render::SurfaceFeatures kAllMaps = kBaseColourMap | kMetallicRoughnessMap | kOcclusionMap | kEmissiveMap |
-                                                 kWearMap | (kEmissiveMap << kSecondUvShift);
+                                                 kWearMap | kScratches | (kEmissiveMap << kSecondUvShift);
     constexpr render::SurfaceFeatures kAll = kAllMaps | kColours | kTextureTransformExtension | kAlphaMask | kLights;
     gpu::ShaderLibrary library;
     library.add_embedded(render::shader_files());
@@ -233,7 +233,7 @@ TEST_F(ProgramLimits, TheLargestProgramsKeepToWhatOpenGlGuarantees) {
     int most_components = 0;
     for (const rowland::test::GratingProgram& program : rowland::test::grating_programs())
         for (const rowland::test::Defines& lights : rowland::test::grating_lights())
-            for (const render::SurfaceFeatures normals : {kNormalMap, 0U}) {
+            for (const render::SurfaceFeatures normals : {kNormalMap, render::SurfaceFeatures{0}}) {
                 if (!rowland::test::exists(program, lights)) continue;
                 gpu::ProgramDesc desc{.vertex = "modules/diffraction/shaders/grating.vert.glsl",
                                       .fragment = "modules/diffraction/shaders/grating.frag.glsl",
