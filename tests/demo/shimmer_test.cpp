@@ -55,6 +55,13 @@ struct PixelAverage {
     double displayed = 0.0;  ///< the same with components cut off at 1, diffuse white
 };
 
+struct ViewAverage {
+    std::map<std::string, PixelAverage> gratings;  ///< by the objects' names
+    /// Pixels at outlines, away from gratings, that are more than twice as bright as the 3 x 3 pixels of 16 samples
+    /// around them.
+    std::size_t dots = 0;
+};
+
 /// Measures the gratings of the demo's scene.
 class Shimmer {
  public:
@@ -63,8 +70,8 @@ class Shimmer {
     /// Fraction of pixels whose jumping is small.
     static constexpr double kCalm = 0.04;
 
-    /// By the objects' names. `with_error`: draws pictures of 16 samples as well.
-    std::map<std::string, PixelAverage> measure(const scene::Camera& camera, bool with_error);
+    /// `with_error`: draws pictures of 16 samples as well.
+    ViewAverage measure(const scene::Camera& camera, bool with_error);
 
     demo::Session& session() { return session_; }
     /// Lights the scene and fills its maps, which do not depend on the camera.
@@ -78,9 +85,15 @@ class Shimmer {
         glm::vec3 sum{0.0F};              ///< of their points in the world
     };
 
+    struct View {
+        std::map<std::string, Seen> gratings;
+        std::vector<std::size_t> outlines;  ///< of any objects, away from gratings
+    };
+
     Pixels draw(const scene::Camera& camera);
     Pixels draw_supersampled(const scene::Camera& camera);
-    std::map<std::string, Seen> see(const scene::Camera& camera);
+    View see(const scene::Camera& camera);
+    std::size_t dots(const std::vector<std::size_t>& at, const Pixels& picture, const Pixels& reference) const;
 
     glm::ivec2 size_;
     demo::Session session_;
@@ -159,7 +172,7 @@ Shimmer::Pixels Shimmer::draw_supersampled(const scene::Camera& camera) {
     return mean;
 }
 
-std::map<std::string, Shimmer::Seen> Shimmer::see(const scene::Camera& camera) {
+Shimmer::View Shimmer::see(const scene::Camera& camera) {
     ecs::World& world = session_.play().world();
     std::vector<demo::PlacedMesh> meshes;
     std::vector<std::string> gratings;  // of each mesh; empty if it has none
@@ -173,29 +186,46 @@ std::map<std::string, Shimmer::Seen> Shimmer::see(const scene::Camera& camera) {
     const auto at = [&](int row, int column) {
         return static_cast<std::size_t>(row) * static_cast<std::size_t>(size_.x) + static_cast<std::size_t>(column);
     };
-    std::map<std::string, Seen> result;
+    View result;
     for (int row = 1; row + 1 < size_.y; ++row)
         for (int column = 1; column + 1 < size_.x; ++column) {
             const auto& here = points[at(row, column)];
-            if (!here || gratings[here->mesh].empty()) continue;
             bool inner = true;
+            bool near_grating = false;
             for (int i = 0; i < 9; ++i) {
                 const auto& beside = points[at(row + i / 3 - 1, column + i % 3 - 1)];
-                inner = inner && beside && beside->mesh == here->mesh;
+                inner = inner && beside.has_value() == here.has_value() && (!here || beside->mesh == here->mesh);
+                near_grating = near_grating || (beside && !gratings[beside->mesh].empty());
             }
-            if (!inner) continue;
-            Seen& seen = result[gratings[here->mesh]];
+            if (!inner && !near_grating) result.outlines.push_back(at(row, column));
+            if (!inner || !here || gratings[here->mesh].empty()) continue;
+            Seen& seen = result.gratings[gratings[here->mesh]];
             seen.pixels.push_back(at(row, column));
             seen.sum += here->point;
         }
     return result;
 }
 
-std::map<std::string, PixelAverage> Shimmer::measure(const scene::Camera& camera, bool with_error) {
+std::size_t Shimmer::dots(const std::vector<std::size_t>& at, const Pixels& picture, const Pixels& reference) const {
+    constexpr float kDark = 0.05F;
+    const auto brightness = [](const glm::vec4& pixel) { return std::max({pixel.r, pixel.g, pixel.b}); };
+    return static_cast<std::size_t>(std::ranges::count_if(at, [&](std::size_t i) {
+        float brightest = 0.0F;
+        for (std::size_t beside = 0; beside < 9; ++beside) {
+            const std::size_t above = i - static_cast<std::size_t>(size_.x) - 1;
+            const std::size_t row = beside / 3 * static_cast<std::size_t>(size_.x);
+            brightest = std::max(brightest, brightness(reference[above + row + beside % 3]));
+        }
+        return brightness(picture[i]) > 2.0F * brightest + kDark;
+    }));
+}
+
+ViewAverage Shimmer::measure(const scene::Camera& camera, bool with_error) {
     const Pixels picture = draw(camera);
     const Pixels reference = with_error ? draw_supersampled(camera) : picture;
-    std::map<std::string, PixelAverage> result;
-    for (const auto& [object, seen] : see(camera)) {
+    const View view = see(camera);
+    ViewAverage result{.gratings = {}, .dots = dots(view.outlines, picture, reference)};
+    for (const auto& [object, seen] : view.gratings) {
         const glm::vec3 middle = seen.sum / static_cast<float>(seen.pixels.size());
         const scene::Camera aside = moved(camera, size_.y, middle);
         const Pixels next = draw(aside);
@@ -203,12 +233,12 @@ std::map<std::string, PixelAverage> Shimmer::measure(const scene::Camera& camera
         double content_jumping = 0.0;
         if (with_error && jumping > kCalm)
             content_jumping = fraction_jumping(seen.pixels, reference, draw_supersampled(aside));
-        result[object] = {.pixels = seen.pixels.size(),
-                          .jumping = jumping,
-                          .change = relative_rms(seen.pixels, next, picture, kWhite),
-                          .content_jumping = content_jumping,
-                          .error = relative_rms(seen.pixels, picture, reference, kNoWhite),
-                          .displayed = relative_rms(seen.pixels, picture, reference, kWhite)};
+        result.gratings[object] = {.pixels = seen.pixels.size(),
+                                   .jumping = jumping,
+                                   .change = relative_rms(seen.pixels, next, picture, kWhite),
+                                   .content_jumping = content_jumping,
+                                   .error = relative_rms(seen.pixels, picture, reference, kNoWhite),
+                                   .displayed = relative_rms(seen.pixels, picture, reference, kWhite)};
     }
     return result;
 }
@@ -230,13 +260,17 @@ scene::Camera at_gratings(scene::Camera view) {
 /// own, and still pictures within 5 % of those of 16 samples. The wing cases have striae and punctures finer than the
 /// pixels of these views, whose lobes are as wide in all directions: 23 % off at most, up to white, and 6 % more jumps
 /// than their content has; held to 24 and 6.5. On the record a lamp's orders lie five pixels apart: 6.6 % at most, held
-/// to 7.
+/// to 7. At outlines two pixels are dots at most, held to 3; seven were when thin legs had the lobe of one of their
+/// normals.
 void hold_goals(Shimmer& shimmer, const demo::Options& options, const std::string& probe,
                 const std::vector<std::size_t>& views) {
     shimmer.use_probe(options.cooked_folder / (probe + ".probe"));
     const auto cameras = shimmer.session().scene().views();
-    for (const std::size_t view : views)
-        for (const auto& [object, found] : shimmer.measure(at_gratings(cameras[view]), true)) {
+    for (const std::size_t view : views) {
+        const ViewAverage measured = shimmer.measure(at_gratings(cameras[view]), true);
+        fmt::print("{}, view {}: {} dots\n", probe, view, measured.dots);
+        EXPECT_LE(measured.dots, 3U) << probe << ", view " << view;
+        for (const auto& [object, found] : measured.gratings) {
             const std::string where = fmt::format("{}, view {}, {}", probe, view, object);
             fmt::print(
                 "{:36} {:6} pixels  jump {:4.1f} % (content {:4.1f} %)  error {:5.1f} %  up to white {:5.1f} %\n",
@@ -250,6 +284,7 @@ void hold_goals(Shimmer& shimmer, const demo::Options& options, const std::strin
             else
                 EXPECT_LE(found.error, object == "record" ? 0.07 : 0.05) << where;
         }
+    }
 }
 
 /// Two views, and the opening one under the probes, a capture where there is one, under which the most pixels jump.
@@ -297,7 +332,7 @@ TEST(Shimmer, OfAFoilThatSparklesIsMore) {
         write_file_atomic(*options.scene, foil(sparkles));
         Shimmer shimmer(options, {320, 180});
         shimmer.use_probe(*options.probe);
-        return shimmer.measure(shimmer.session().scene().camera(), false).at("foil").change;
+        return shimmer.measure(shimmer.session().scene().camera(), false).gratings.at("foil").change;
     };
     const double filtered = change(false);
     EXPECT_GT(change(true), 2.0 * filtered);
