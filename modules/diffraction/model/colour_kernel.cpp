@@ -87,6 +87,7 @@ ColourKernel::ColourKernel(const Grating& grating, const colour::LightSpectra& s
 
 void ColourKernel::add_sharp_orders(const Grating& grating, std::span<const glm::dmat3> observed, double v_g) {
     for (const int order : grating.orders) {
+        if (grating.efficiencies && !std::ranges::binary_search(grating.efficiencies->orders, order)) continue;
         std::vector<glm::dmat3> values;
         for (std::size_t j = 0; j < observed.size(); ++j) {
             const double wavelength_nm = colour::kVisibleMin + static_cast<double>(j);

@@ -68,6 +68,24 @@ TEST_F(RigorousRadiance, IsThatOfAnotherProgram) {
     EXPECT_LT(error_of(grooves("rigorous"), "arc/key_lights=16"), 0.035);
 }
 
+/// By a sum of products over views and u, PHYSICS (14.7).
+TEST_F(RigorousRadiance, TheMapOfAWideLobeIsTheReferences) {
+    const auto with_lobe = [](const char* theory) {
+        nlohmann::json json = grooves(theory);
+        json["grating"]["groove_lobe"] = {{"sigma", 0.15}};
+        return with_efficiencies(parse_material(json, "test"), "test");
+    };
+    frames_.resize(24);
+    const auto reference = [&](const Material& material) {
+        return reference_radiance(material.grating, *probe_, colour::LightSpectra(), frames_);
+    };
+    expected_ = reference(with_lobe("rigorous"));
+    EXPECT_GT(error_of(reference(with_lobe("scalar"))), 0.05);
+    nlohmann::json json = grooves("rigorous");
+    json["grating"]["groove_lobe"] = {{"sigma", 0.15}};
+    EXPECT_LT(error_of(json, "planar/map_resolution=64"), 0.02);
+}
+
 /// A table of as many incidences as the grid has views is the grid.
 TEST_F(RigorousRadiance, ATableOfIncidencesIsUsedByEveryMethod) {
     const Material rigorous = with_efficiencies(parse_material(grooves("rigorous"), "test"), "test");
