@@ -214,7 +214,7 @@ double difference_from_mean(const std::vector<glm::vec4>& pixels, int side, floa
 }
 
 TEST_F(LitSurfaceTest, NormalsThatVaryWithinAPixelWidenTheHighlight) {
-    // A map of 19 x 19 texels a pixel, whose slopes are normally distributed.
+    // A map of 19 x 19 texels per pixel, whose slopes are normally distributed.
     constexpr int kTexels = 512;
     std::mt19937 random(5);
     std::normal_distribution<float> slope(0.0F, 0.2F);
