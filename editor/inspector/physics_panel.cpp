@@ -135,7 +135,7 @@ void draw_efficiencies(const diffraction::Grating& grating, const std::optional<
     }
     const bool of_table = std::holds_alternative<diffraction::EfficiencyTable>(grating.profile);
     if (rigorous)
-        ImGui::TextDisabled("Lines: rigorous theory, light from the angle above. Dots: scalar theory.");
+        ImGui::TextDisabled("Lines: rigorous theory. Dots: scalar theory.");
     else if (compared)
         ImGui::TextDisabled(of_table ? "Lines: the table. Dots: the last scalar profile."
                                      : "Lines: scalar theory. Dots: the opened table.");

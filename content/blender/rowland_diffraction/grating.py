@@ -83,6 +83,19 @@ def set_value(grating, path, value):
         grating[path[-1]] = value
 
 
+def drop_impossible_theory(grating):
+    """Rigorous theory is for reliefs of a metal; streaks do not take it."""
+    grooves = grating.get("grating", {})
+    relief = value_at(grooves, ("profile", "type")) in ("lamellar", "sinusoidal", "blazed")
+    if not relief or "metal" not in grating or value_at(grating, ("quality", "representation")) == "streak":
+        grooves.pop("theory", None)
+
+
+def set_metal(grating, metal):
+    set_value(grating, ("metal",), metal)
+    drop_impossible_theory(grating)
+
+
 def is_lattice(grating):
     return value_at(grating, ("grating", "lattice")) is not None
 
@@ -135,6 +148,7 @@ def set_lobe_kind(grating, kind):
     lobe, quality = LOBES[kind]
     set_value(grating, ("grating", "groove_lobe"), lobe)
     grating["quality"] = dict(quality)
+    drop_impossible_theory(grating)
 
 
 def set_profile_kind(grating, kind):
@@ -146,6 +160,7 @@ def set_profile_kind(grating, kind):
         grating.get("cover", {}).pop("tint", None)
     if kind != "slit":
         grating["grating"].pop("normalization", None)
+    drop_impossible_theory(grating)
 
 
 def set_transmits(grating, transmits):
@@ -153,6 +168,7 @@ def set_transmits(grating, transmits):
     if transmits:  # a sheet has neither
         grating.pop("metal", None)
         grating.pop("cover", None)
+    drop_impossible_theory(grating)
 
 
 def spectral_colour(wavelength_nm):

@@ -103,7 +103,7 @@ class RowlandGrating(bpy.types.PropertyGroup):
     coherent: number(("grating", "groove_lobe", "pits", "coherent"), "Coherent", PITS["coherent"])
     metal: choice(
         "Metal", ["perfect", *grating.METALS], lambda o: o.get("metal", "perfect"),
-        lambda o, value: grating.set_value(o, ("metal",), None if value == "perfect" else value))
+        lambda o, value: grating.set_metal(o, None if value == "perfect" else value))
     covered: bpy.props.BoolProperty(
         name="Cover", description="A transparent layer over the grooves",
         get=lambda self: "cover" in self.object(),

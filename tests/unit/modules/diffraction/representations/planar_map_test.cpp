@@ -273,8 +273,9 @@ TEST(PlanarMap, AnyNumberOfThreadsGivesTheSameMap) {
 /// Lines of half nodes along v_g and along the azimuth, through the brightest lamp's first order at 550 nm: how far a
 /// map is below 0, and outside of what the reference has within two nodes, as fractions of the brightest there.
 TEST(FlatMapAroundALamp, IsNeverNegativeAndHasNoStripes) {
-    const Material material = load_material(rowland::test::content_path("materials/ruled_600.json"));
-    const ColourKernel kernel(material.grating, colour::LightSpectra());
+    const Material material =
+        with_efficiencies(load_material(rowland::test::content_path("materials/ruled_600.json")), "ruled_600");
+    const KernelTable kernel = kernel_table(material.grating, colour::LightSpectra());
     const PlaneAxes axes = plane_axes(glm::normalize(glm::dvec3(-0.3, 0.3, 0.9)));
     const PlanarMapSize size = planar_map_size(256);
     constexpr int kPoints = 41;
@@ -283,8 +284,7 @@ TEST(FlatMapAroundALamp, IsNeverNegativeAndHasNoStripes) {
         if (!std::filesystem::exists(path)) GTEST_SKIP() << "no captures of light (package blender-data)";
         const lighting::ProbeImage probe(image::load_image(path), lighting::Mapping::Equirectangular);
         const lighting::LightSamples texels = lighting::light_samples(probe);
-        const PlanarMap map =
-            fill_planar_map(texels, tabulate(kernel), material.grating.pitch_nm, axes.n, size, kernel.zero_order_xyz());
+        const PlanarMap map = fill_planar_map(texels, kernel, material.grating.pitch_nm, axes.n, size);
         glm::dvec3 lamp(0.0);
         double brightest = 0.0;
         for (std::size_t i = 0; i < texels.size(); ++i)
