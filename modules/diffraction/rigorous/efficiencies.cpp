@@ -63,6 +63,21 @@ void add(const OrderEfficiencies& solved, double s_g, double period, const std::
     }
 }
 
+/// η_m(v_g) = η_−m(−v_g) to the last bit: maps of such a grating need one half alone. `orders` are symmetric.
+void make_symmetric(EfficiencyGrid& grid) {
+    const std::size_t rows = grid.orders.size() * EfficiencyGrid::kWavelengths;
+    for (std::size_t row = 0; row < rows; ++row) {
+        const std::size_t order = row / EfficiencyGrid::kWavelengths;
+        const std::size_t opposite =
+            (grid.orders.size() - 1 - order) * EfficiencyGrid::kWavelengths + row % EfficiencyGrid::kWavelengths;
+        for (std::size_t view = 0; view < EfficiencyGrid::kViews; ++view) {
+            float& value = grid.values[row * EfficiencyGrid::kViews + view];
+            float& other = grid.values[(opposite + 1) * EfficiencyGrid::kViews - 1 - view];
+            value = other = 0.5F * (value + other);
+        }
+    }
+}
+
 /// How far beyond first_truncation() a wavelength converges, and its error.
 struct Margin {
     int orders = 0;
@@ -148,6 +163,7 @@ SolvedEfficiencies solve_efficiencies(const Relief& relief, colour::Metal metal,
             std::ranges::sort(samples, {}, &EfficiencyGrid::Sample::v_g);
             result.grid.set(o, row, samples);
         }
+    if (symmetric) make_symmetric(result.grid);
     return result;
 }
 

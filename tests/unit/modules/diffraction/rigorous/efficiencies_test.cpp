@@ -48,6 +48,11 @@ TEST(RigorousEfficiencies, TheGridIsWhatSingleSolvesGive) {
     RecordProperty("error", std::to_string(error));
     EXPECT_LT(error, 0.02);
     EXPECT_LE(solved.error, kGridTolerance);
+    const EfficiencyGrid& grid = solved.grid;
+    for (int view = 0; view < EfficiencyGrid::kViews; ++view)
+        for (const int order : grid.orders)
+            EXPECT_NEAR(grid.at(order, 500.0, EfficiencyGrid::view_at(view)),
+                        grid.at(-order, 500.0, EfficiencyGrid::view_at(EfficiencyGrid::kViews - 1 - view)), 1e-8);
 }
 
 }  // namespace
