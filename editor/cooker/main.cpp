@@ -58,18 +58,13 @@ void check_usage(const Options& options) {
 }
 
 diffraction::CookedMaterial load(const std::filesystem::path& path) {
-    const auto refuse_directions = [&](const diffraction::Grating& grating) {
-        if (depends_on_direction(grating))
-            refuse_input(path.string(), "/grating", "efficiencies that depend on the direction",
-                         "those of scalar theory or of one incidence", "use \"theory\": \"scalar\"");
-    };
     if (path.extension() != ".json") {
         diffraction::CookedMaterial cooked = diffraction::load_cooked_material(path);
-        refuse_directions(cooked.material.grating);
+        diffraction::require_portable(cooked.material.grating, path.string());
         return cooked;
     }
     const diffraction::Material material = diffraction::load_material(path);
-    refuse_directions(material.grating);
+    diffraction::require_portable(material.grating, path.string());
     diffraction::require_baked_grooves(material.grating, path.string());
     return diffraction::bake_kernel(material);
 }

@@ -37,18 +37,19 @@ std::vector<int> shown_orders(const diffraction::Grating& grating) {
     return orders;
 }
 
+/// Efficiencies that depend on the direction are 0 where the order does not leave the surface.
 double efficiency_of(const diffraction::Grating& grating, int order, double wavelength_nm, double s_g = 0.0) {
-    return order == 0 && !depends_on_direction(grating)
-               ? diffraction::zero_order_efficiency(grating, wavelength_nm)
-               : diffraction::order_efficiency(grating, order, wavelength_nm, s_g);
+    if (!depends_on_direction(grating) && order == 0) return diffraction::zero_order_efficiency(grating, wavelength_nm);
+    if (depends_on_direction(grating) && !diffraction::diffracted_cosine(s_g, order, wavelength_nm, grating.pitch_nm))
+        return 0.0;
+    return diffraction::order_efficiency(grating, order, wavelength_nm, s_g);
 }
 
 double absorbed_fraction(const diffraction::Grating& grating, double wavelength_nm, double s_g) {
     if (grating.theory == diffraction::Theory::Rigorous) {
         double reflected = 0.0;
         for (const int order : grating.efficiencies->orders)
-            if (diffraction::diffracted_cosine(s_g, order, wavelength_nm, grating.pitch_nm))
-                reflected += diffraction::order_efficiency(grating, order, wavelength_nm, s_g);
+            reflected += efficiency_of(grating, order, wavelength_nm, s_g);
         return std::max(0.0, 1.0 - reflected);
     }
     if (const auto* table = std::get_if<diffraction::EfficiencyTable>(&grating.profile)) {
@@ -218,9 +219,7 @@ std::vector<EfficiencyCurve> efficiency_curves(const diffraction::Grating& grati
         EfficiencyCurve curve{order, {}};
         double sum = 0.0;
         for (int nm = colour::kVisibleMin; nm <= colour::kVisibleMax; nm += kStep) {
-            const bool leaves = grating.theory == diffraction::Theory::Scalar ||
-                                diffraction::diffracted_cosine(s_g, order, nm, grating.pitch_nm).has_value();
-            curve.points.emplace_back(nm, leaves ? efficiency_of(grating, order, nm, s_g) : 0.0);
+            curve.points.emplace_back(nm, efficiency_of(grating, order, nm, s_g));
             sum += curve.points.back().y;
         }
         curves.emplace_back(order == 0 ? -HUGE_VAL : -sum, std::move(curve));
@@ -241,7 +240,6 @@ EnergyBalance energy_balance(diffraction::Grating grating, double wavelength_nm,
     for (const int order : grating.orders) {
         if (order == 0) continue;
         const bool leaves = diffraction::diffracted_cosine(s_g, order, wavelength_nm, grating.pitch_nm).has_value();
-        if (!leaves && grating.theory == diffraction::Theory::Rigorous) continue;
         (leaves ? balance.orders : balance.evanescent) += efficiency_of(grating, order, wavelength_nm, s_g);
     }
     balance.residual = std::max(0.0, 1.0 - balance.orders - balance.zero - balance.evanescent - balance.absorbed);

@@ -6,6 +6,7 @@
 
 #include "engine/colour/colour_space.h"
 #include "engine/core/check.h"
+#include "engine/core/error.h"
 #include "modules/diffraction/asset/material.h"
 #include "modules/diffraction/bake/arc_moments.h"
 #include "modules/diffraction/bake/kernel_cells.h"
@@ -82,7 +83,14 @@ PortableDocument make_portable(const std::string& uri) {
             .bytes = {}};
 }
 
+void require_portable(const Grating& grating, const std::string& file) {
+    if (depends_on_direction(grating))
+        refuse_input(file, "/grating", "efficiencies that depend on the direction",
+                     "those of scalar theory or of one incidence", "use \"theory\": \"scalar\"");
+}
+
 void add_material(const CookedMaterial& cooked, PortableDocument& document) {
+    ROWLAND_CHECK(!depends_on_direction(cooked.material.grating), "require_portable()");
     const Material& material = cooked.material;
     const Grating& grating = material.grating;
     const LayerWeights weights = layer_weights(grating, material.quality.illuminant);

@@ -26,7 +26,10 @@ struct PortableDocument {
 /// A document without contents, whose bytes will lie in the file `uri` beside it.
 PortableDocument make_portable(const std::string& uri);
 
-/// Adds "material": the kernel, the layers' weights and what shades a lobe and a cover.
+/// Throws Error (input) naming `file` for efficiencies that depend on the direction, which a document does not hold.
+void require_portable(const Grating& grating, const std::string& file);
+
+/// Adds "material": the kernel, the layers' weights and what shades a lobe and a cover. require_portable() must hold.
 void add_material(const CookedMaterial& cooked, PortableDocument& document);
 
 /// Adds "arc": the table of the representation `arc`, with the matrix from SH to its light terms.

@@ -22,32 +22,31 @@ constexpr double kConvergedFor = 0.31;
 /// The truncation is chosen at every so many rows; between, the larger of the two neighbours' margins holds.
 constexpr int kRowsPerChoice = 5;
 
-/// Directions at which one wavelength is solved: first + k·step for all whole k. `combs` solves give them all.
-struct Directions {
-    double first = 0.0;
-    double step = 0.0;
-    int combs = 1;
-
-    /// As fine as the grid. Of the two sets that are symmetric about 0, the one that is farther from the directions
-    /// at which an order is at the horizon, ±1 + kλ/d.
-    Directions(double wavelength_nm, double pitch_nm) {
-        const double period = wavelength_nm / pitch_nm;
-        combs = std::max(1, static_cast<int>(std::ceil(period * EfficiencyGrid::kViews / 2.0)));
-        step = period / combs;
-        const double horizon = 1.0 / step - std::floor(1.0 / step);
-        first = std::abs(horizon - 0.5) < 0.25 ? 0.0 : 0.5 * step;
+/// The s_g that are solved at one wavelength. Each gives light from s_g + kλ/d as well, all together (if `symmetric`,
+/// with the opposite ones) equal steps as fine as the grid's. Of the two such sets that are symmetric about 0, the one
+/// that is farther from the directions at which an order is at the horizon, ±1 + kλ/d.
+std::vector<double> solved_directions(double wavelength_nm, double pitch_nm, bool symmetric) {
+    const double period = wavelength_nm / pitch_nm;
+    const int count = std::max(1, static_cast<int>(std::ceil(period * EfficiencyGrid::kViews / 2.0)));
+    const double step = period / count;
+    const double horizon = 1.0 / step - std::floor(1.0 / step);
+    const bool holds_zero = std::abs(horizon - 0.5) < 0.25;
+    const int of_half = holds_zero ? count / 2 + 1 : (count + 1) / 2;
+    std::vector<double> directions;
+    for (int i = 0; i < (symmetric ? of_half : count); ++i) {
+        const double s_g = step * (holds_zero ? i : i + 0.5);
+        const double nearest = s_g - period * std::round(s_g / period);
+        if (std::abs(nearest) < 1.0) directions.push_back(nearest);
     }
-    /// The direction of comb j that is nearest to 0 from above, or less than 1.
-    double of_comb(int j) const { return first + step * j; }
-};
+    return directions;
+}
 
-struct Row {
-    std::vector<std::vector<EfficiencyGrid::Sample>> samples;  ///< by order of the grid
-};
+/// Of one wavelength, by order of the grid.
+using Samples = std::vector<std::vector<EfficiencyGrid::Sample>>;
 
 /// Adds what one solve gives: for light from every direction of its comb, each order.
 void add(const OrderEfficiencies& solved, double s_g, double period, const std::vector<int>& orders, bool mirrored,
-         Row& row) {
+         Samples& samples) {
     const auto size = static_cast<int>(solved.v_g.size());
     for (int i = 0; i < size; ++i) {
         const int k = i + solved.first;
@@ -57,8 +56,8 @@ void add(const OrderEfficiencies& solved, double s_g, double period, const std::
             const double to = orders[o] * period - from;
             if (std::abs(to) >= 1.0) continue;
             const double efficiency = solved.reflected(orders[o], Light::Unpolarised, k);
-            row.samples[o].push_back({from, efficiency});
-            if (mirrored) row.samples[orders.size() - 1 - o].push_back({-from, efficiency});
+            samples[o].push_back({from, efficiency});
+            if (mirrored) samples[orders.size() - 1 - o].push_back({-from, efficiency});
         }
     }
 }
@@ -126,41 +125,36 @@ SolvedEfficiencies solve_efficiencies(const Relief& relief, colour::Metal metal,
 
     struct Solve {
         int row;
-        int comb;
+        double s_g;
     };
     std::vector<Solve> solves;
-    for (int row = 0; row < kRows; ++row) {
-        const Directions directions(EfficiencyGrid::wavelength_at(row), relief.pitch_nm);
-        // Comb j mirrored is comb combs − j, or combs − 1 − j where the first is half a step from 0.
-        const int kept = !symmetric               ? directions.combs
-                         : directions.first > 0.0 ? (directions.combs + 1) / 2
-                                                  : directions.combs / 2 + 1;
-        for (int comb = 0; comb < kept; ++comb) solves.push_back({row, comb});
-    }
+    for (int row = 0; row < kRows; ++row)
+        for (const double s_g : solved_directions(EfficiencyGrid::wavelength_at(row), relief.pitch_nm, symmetric))
+            solves.push_back({row, s_g});
     result.solves = static_cast<int>(solves.size());
-    std::vector<Row> rows(kRows, Row{.samples = std::vector<std::vector<EfficiencyGrid::Sample>>(orders.size())});
+    std::vector<Samples> rows(kRows, Samples(orders.size()));
     std::mutex mutex;
     Progress progress(name + ": Maxwell's equations", solves.size());
     parallel_for(solves.size(), [&](std::size_t i) {
-        const auto [row, comb] = solves[i];
+        const auto [row, s_g] = solves[i];
         const double wavelength_nm = EfficiencyGrid::wavelength_at(row);
-        const double period = wavelength_nm / relief.pitch_nm;
-        double s_g = Directions(wavelength_nm, relief.pitch_nm).of_comb(comb);
-        s_g -= period * std::round(s_g / period);
-        if (std::abs(s_g) < 1.0) {
-            const auto below = static_cast<std::size_t>(row / kRowsPerChoice);
-            const int margin = std::max(margins[below].orders, margins[std::min(below + 1, margins.size() - 1)].orders);
-            const OrderEfficiencies solved = solve(relief, index_at(row), wavelength_nm, s_g,
-                                                   first_truncation(relief, index_at(row), wavelength_nm) + margin);
+        const auto below = static_cast<std::size_t>(row / kRowsPerChoice);
+        const int margin = std::max(margins[below].orders, margins[std::min(below + 1, margins.size() - 1)].orders);
+        const OrderEfficiencies solved = solve(relief, index_at(row), wavelength_nm, s_g,
+                                               first_truncation(relief, index_at(row), wavelength_nm) + margin);
+        {
             const std::lock_guard lock(mutex);
-            add(solved, s_g, period, orders, symmetric, rows[static_cast<std::size_t>(row)]);
+            add(solved, s_g, wavelength_nm / relief.pitch_nm, orders, symmetric, rows[static_cast<std::size_t>(row)]);
         }
         progress.advance();
     });
     for (int row = 0; row < kRows; ++row)
         for (std::size_t o = 0; o < orders.size(); ++o) {
-            auto& samples = rows[static_cast<std::size_t>(row)].samples[o];
-            std::ranges::sort(samples, {}, &EfficiencyGrid::Sample::v_g);
+            auto& samples = rows[static_cast<std::size_t>(row)][o];
+            // By both, so that the result does not depend on which of two at one direction was solved first.
+            std::ranges::sort(samples, {}, [](const EfficiencyGrid::Sample& sample) {
+                return std::pair(sample.v_g, sample.efficiency);
+            });
             result.grid.set(o, row, samples);
         }
     if (symmetric) make_symmetric(result.grid);
