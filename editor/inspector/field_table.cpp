@@ -30,6 +30,7 @@ using FieldKind::Orders;
 using FieldKind::Pair;
 
 const char* const kPaper = "Lindsay & Agu 2006";
+const char* const kMaxwell = "Li 1996; Chandezon et al. 1982";
 const char* const kFresnel = "Fresnel's equations";
 const char* const kGoodman = "Goodman, Introduction to Fourier Optics, ch. 4";
 const char* const kStam = "Stam 1999, Diffraction shaders";
@@ -113,10 +114,17 @@ std::vector<Field> order_and_lobe_fields() {
                      "Number N of grooves that are lit together; at least 1. From 50 on an order is a sharp line.",
                      "Lindsay & Agu 2006, eq. 3 (N = 1500)"),
               choice(
-                  "/grating/theory", "Theory", "scalar", {{"scalar", "scalar"}, {"rigorous", "rigorous"}},
+                  "/grating/theory", "Theory", nullptr,
+                  {{"by the grooves", nullptr}, {"scalar", "scalar"}, {"rigorous", "rigorous"}},
                   "scalar: closed forms that depend on wavelength alone. rigorous: Maxwell's equations, of lamellar, "
-                  "sinusoidal and blazed grooves of a metal; solving takes seconds, drawing costs the same.",
-                  "Li 1996; Chandezon et al. 1982"),
+                  "sinusoidal and blazed grooves of a metal; solving takes seconds, drawing costs the same. by the "
+                  "grooves: rigorous where it knows them.",
+                  kMaxwell),
+              choice("/grating/films", "Film on the grooves", nullptr,
+                     {{"none", nullptr}, {"a film", {{{"ior", 1.6}, {"thickness_nm", 120}}}}},
+                     "A transparent film that follows the relief, as lacquer or an oxide does. Rigorous theory alone "
+                     "knows it.",
+                     kMaxwell),
               choice("/grating/normalization", "Normalisation", "energy", {{"energy", "energy"}, {"agu", "agu"}},
                      "energy: each order has the power of its efficiency. agu: the paper's peak form, each order "
                      "times λ/550 nm; slits only.",
@@ -128,6 +136,11 @@ std::vector<Field> order_and_lobe_fields() {
                      "Distribution of light along the grooves. flat: uniform, as in the paper. gaussian: thin "
                      "streaks, as of pressed discs and foil. pits: the data of a compact disc.",
                      "flat: Lindsay & Agu 2006; pits: Stam 1999, Diffraction shaders")}),
+         shown_for("/grating/films", "a film",
+                   {required(slider(Number, "/grating/films/0/ior", "Film's index", {1.0, 3.0}, 1.6,
+                                    "Index of refraction n of the film at all wavelengths; 1 to 4.", kMaxwell)),
+                    required(slider(Number, "/grating/films/0/thickness_nm", "Film's thickness", {5.0, 500.0, "nm"},
+                                    120, "Above 0, at most the pitch.", kMaxwell))}),
          shown_for("/grating/groove_lobe", "gaussian",
                    {required(slider(Number, "/grating/groove_lobe/sigma", "Lobe width", {0.005, 1.0, "", kLogarithmic},
                                     0.1, "Standard deviation σ of s_h + v_h along the grooves; above 0.",

@@ -6,6 +6,7 @@
 #include <memory>
 #include <string>
 
+#include "editor/inspector/rigorous_curves.h"
 #include "editor/inspector/session.h"
 #include "editor/inspector/widgets.h"
 #include "engine/core/computed.h"
@@ -91,15 +92,23 @@ class PhysicsPanel {
  public:
     explicit PhysicsPanel(const post::OcioConfig& config) : display_(config) {}
 
+    /// Call it every frame.
+    void update(const OpenDocument& opened);
     /// Into the current ImGui window.
     void draw(const OpenDocument& opened, const View& view, const Measurement& measurement, ControlMap& controls);
+    /// Whether rigorous efficiencies are being computed.
+    bool busy() const { return rigorous_.busy(); }
 
  private:
+    void draw_rigorous(const diffraction::Grating& grating, ControlMap& controls);
     void draw_point(const View& view, const Measurement& measurement, bool with_spectrum, ControlMap& controls) const;
 
     post::DisplayTransform display_;
     PaneLight light_;
     PatternPane pattern_;
+    int polarisation_ = 0;                                           ///< of the curves: mean, TE, TM
+    Computed<RigorousInputs, std::vector<RigorousOrder>> rigorous_;  ///< of gratings of rigorous theory
+    std::string rigorous_failure_;
 };
 
 /// The preview with its tools: drag orbits, the wheel zooms, a click picks a point, and a line divides the saved

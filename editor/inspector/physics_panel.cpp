@@ -114,18 +114,18 @@ diffraction::Grating shown_grating(const OpenDocument& opened) {
     return cooked && opened.is_cooked() ? cooked->material.grating : by_scalar_theory(grating);
 }
 
-void draw_efficiencies(const diffraction::Grating& grating, const std::optional<diffraction::Grating>& table,
-                       double s_g, ControlMap& controls) {
-    const bool rigorous = grating.theory == diffraction::Theory::Rigorous;
-    const std::optional<diffraction::Grating> compared = rigorous ? by_scalar_theory(grating) : table;
-    const auto curves = efficiency_curves(grating, s_g);
-    const auto others = compared ? efficiency_curves(*compared, s_g) : std::vector<EfficiencyCurve>();
+double sine_of(double angle_deg) {
+    return std::sin(angle_deg * std::numbers::pi / 180.0);
+}
+
+/// Curves as lines and, of the same orders, `others` as dots.
+void draw_curves(const std::vector<EfficiencyCurve>& curves, const std::vector<EfficiencyCurve>& others, const char* id,
+                 const PlotAxis& x) {
     double top = 0.0;
     for (const auto* list : {&curves, &others})
         for (const EfficiencyCurve& curve : *list)
             for (const glm::dvec2& point : curve.points) top = std::max(top, point.y);
-    Plot plot("##efficiency", plot_height(), {380.0, 780.0, "wavelength, nm"},
-              {0.0, top > 0.0 ? 1.1 * top : 1.0, "fraction"});
+    Plot plot(id, plot_height(), x, {0.0, top > 0.0 ? 1.1 * top : 1.0, "fraction"});
     for (std::size_t i = 0; i < curves.size(); ++i) {
         plot.line(curves[i].points, i);
         plot.legend(order_name(curves[i].order), i);
@@ -133,10 +133,17 @@ void draw_efficiencies(const diffraction::Grating& grating, const std::optional<
             for (std::size_t k = 0; other.order == curves[i].order && k < other.points.size(); k += 5)
                 plot.marker(other.points[k].x, other.points[k].y, i);
     }
+}
+
+const PlotAxis kWavelengths{380.0, 780.0, "wavelength, nm"};
+
+void draw_efficiencies(const diffraction::Grating& grating, const std::optional<diffraction::Grating>& compared,
+                       double s_g, ControlMap& controls) {
+    const auto curves = efficiency_curves(grating, s_g);
+    draw_curves(curves, compared ? efficiency_curves(*compared, s_g) : std::vector<EfficiencyCurve>(), "##efficiency",
+                kWavelengths);
     const bool of_table = std::holds_alternative<diffraction::EfficiencyTable>(grating.profile);
-    if (rigorous)
-        ImGui::TextDisabled("Lines: rigorous theory. Dots: scalar theory.");
-    else if (compared)
+    if (compared)
         ImGui::TextDisabled(of_table ? "Lines: the table. Dots: the last scalar profile."
                                      : "Lines: scalar theory. Dots: the opened table.");
     else
@@ -302,6 +309,63 @@ void PatternPane::draw(const View& view, std::shared_ptr<const PatternFigure> pa
     controls.note("pattern", numbers_of_pattern(*shown_));
 }
 
+void PhysicsPanel::update(const OpenDocument& opened) {
+    std::optional<RigorousInputs> inputs;
+    const Document& document = opened.document();
+    if (document.has_grating() && document.material().grating.theory == diffraction::Theory::Rigorous) {
+        const diffraction::Grating& grating = document.material().grating;
+        inputs = {.relief = relief_of(grating, "the material"),
+                  .metal = *grating.metal,
+                  .orders = {},
+                  .wavelength_nm = light_.wavelength_nm,
+                  .s_g = sine_of(light_.incidence_deg)};
+        for (const EfficiencyCurve& curve : efficiency_curves(by_scalar_theory(grating)))
+            inputs->orders.push_back(curve.order);
+    }
+    rigorous_.want(inputs, [inputs](const std::stop_token& stop, const auto& publish) {
+        return rigorous_curves(*inputs, stop, publish);
+    });
+    const auto change = rigorous_.poll();
+    if (change.value) rigorous_failure_.clear();
+    if (!change.failure.empty()) rigorous_failure_ = change.failure;
+}
+
+void PhysicsPanel::draw_rigorous(const diffraction::Grating& grating, ControlMap& controls) {
+    constexpr std::array kNames = {"unpolarised", "TE", "TM"};
+    ImGui::SetNextItemWidth(-1.0F);
+    ImGui::Combo("##polarisation", &polarisation_, kNames.data(), static_cast<int>(kNames.size()));
+    controls.mark("Polarisation");
+    if (!rigorous_failure_.empty()) ImGui::TextWrapped("%s", rigorous_failure_.c_str());
+    const std::vector<RigorousOrder>* orders = rigorous_.value();
+    if (orders == nullptr) return ImGui::TextDisabled("Computing…");
+    const auto curves_of = [&](std::vector<PolarisedPoint> RigorousOrder::*points) {
+        std::vector<EfficiencyCurve> curves;
+        for (const RigorousOrder& order : *orders) {
+            if ((order.*points).empty()) continue;
+            curves.push_back({order.order, {}});
+            for (const PolarisedPoint& point : order.*points)
+                curves.back().points.emplace_back(
+                    point.at, polarisation_ == 0 ? point.mean() : (polarisation_ == 1 ? point.te : point.tm));
+        }
+        return curves;
+    };
+    const auto scalar = efficiency_curves(by_scalar_theory(grating));
+    const auto over_wavelength = curves_of(&RigorousOrder::over_wavelength);
+    const auto over_incidence = curves_of(&RigorousOrder::over_incidence);
+    std::vector<EfficiencyCurve> scalar_over_incidence = over_incidence;  // scalar theory does not depend on it
+    for (EfficiencyCurve& curve : scalar_over_incidence) {
+        const auto& same = *std::ranges::find(scalar, curve.order, &EfficiencyCurve::order);
+        const auto nearest = std::ranges::lower_bound(same.points, light_.wavelength_nm, {}, &glm::dvec2::x);
+        for (glm::dvec2& point : curve.points) point.y = nearest->y;
+    }
+    draw_curves(over_wavelength, scalar, "##efficiency", kWavelengths);
+    draw_curves(over_incidence, scalar_over_incidence, "##incidence", {-90.0, 90.0, "light from, degrees"});
+    ImGui::TextDisabled("Lines: Maxwell's equations. Dots: scalar theory.");
+    if (!over_wavelength.empty())
+        controls.note("efficiency", fmt::format("{:.4f}", over_wavelength.front().points.front().y));
+    controls.note("efficiency is final", rigorous_.current() && !rigorous_.busy() ? "yes" : "no");
+}
+
 void PhysicsPanel::draw(const OpenDocument& opened, const View& view, const Measurement& measurement,
                         ControlMap& controls) {
     const diffraction::Grating grating = shown_grating(opened);
@@ -317,9 +381,10 @@ void PhysicsPanel::draw(const OpenDocument& opened, const View& view, const Meas
     if (pane("Diffraction over angle")) draw_angles(grating, light_);
     if (pane("Distribution of power")) draw_energy(grating, light_, controls);
     if (pane("Directions of orders, from above")) draw_directions(grating, light_);
-    if (pane("Efficiency over wavelength"))
-        draw_efficiencies(grating, opened.compared(), std::sin(light_.incidence_deg * std::numbers::pi / 180.0),
-                          controls);
+    const bool rigorous = opened.document().material().grating.theory == diffraction::Theory::Rigorous;
+    if (pane(rigorous ? "Efficiency over wavelength and incidence" : "Efficiency over wavelength"))
+        rigorous ? draw_rigorous(grating, controls)
+                 : draw_efficiencies(grating, opened.compared(), sine_of(light_.incidence_deg), controls);
     if (pane("Colour over path difference") && opened.cooked()) draw_kernel(*opened.cooked());
     if (pane("Luminance over view, against the reference"))
         numbers != nullptr ? draw_sweep(numbers->sweep) : ImGui::TextDisabled("Computing…");

@@ -120,6 +120,7 @@ void draw_help(std::span<const Command> commands, bool& open, ControlMap& contro
 void Workbench::draw(const platform::InputState& input, bool keys_are_ours, const WorkbenchFrame& frame) {
     const std::vector<Command> present = commands();
     film_.update(session_.opened);
+    physics_.update(session_.opened);
     if (keys_are_ours) run_pressed(present, input);
     draw_menu_bar(present, controls_);
     draw_tiles(input, frame);

@@ -68,7 +68,7 @@ class Workbench {
     /// Whether the user requested a screenshot since the last call.
     bool take_screenshot() { return std::exchange(screenshot_, false); }
     /// Whether the next frame differs without input: a message disappears, or the film's curves are being computed.
-    bool due() const { return messages_.due() || film_.busy(); }
+    bool due() const { return messages_.due() || film_.busy() || physics_.busy(); }
 
  private:
     std::vector<Command> commands();

@@ -101,7 +101,8 @@ nlohmann::json browser_material(const std::filesystem::path& path) {
     return json;
 }
 
-nlohmann::ordered_json panels(const SweepResults& results, const SweepInputs& inputs) {
+nlohmann::ordered_json panels(const SweepResults& results, const SweepInputs& inputs,
+                              const std::vector<TheoryError>& theories) {
     std::vector<nlohmann::json> materials(results.materials.size());
     std::ranges::transform(inputs.materials, materials.begin(), browser_material);
     std::map<std::tuple<std::size_t, std::size_t, std::string>, nlohmann::ordered_json> panels;
@@ -117,9 +118,12 @@ nlohmann::ordered_json panels(const SweepResults& results, const SweepInputs& in
         const auto& [material, probe, set] = key;
         mark_front("frame_ratio", "front_speed", panels[key]);
         mark_front("memory", "front_memory", panels[key]);
+        const auto theory = std::ranges::find_if(
+            theories, [&](const TheoryError& of) { return std::tuple(of.material, of.probe, of.set) == key; });
         list.push_back({{"material", results.materials[material]},
                         {"probe", results.probes[probe]},
                         {"set", set},
+                        {"theory_error", theory == theories.end() ? nlohmann::ordered_json() : theory->error},
                         {"browser_material", materials[material]},
                         {"rows", panels[key]}});
     }
@@ -288,7 +292,7 @@ nlohmann::ordered_json report_data(const SweepResults& results, const SweepInput
                                    {"real_time_ratio", kRealTimeRatio},
                                    {"full_difference", kFullDifference},
                                    {"representations", representation_names()},
-                                   {"panels", panels(results, inputs)},
+                                   {"panels", panels(results, inputs, origin.theories)},
                                    {"differences", nlohmann::ordered_json::array()},
                                    {"films", films(results, origin.films)},
                                    {"paper", paper}};

@@ -59,12 +59,21 @@ struct DifferencePicture {
     RgbPicture picture;
 };
 
+/// Sweep::theory_error() of a material under a probe.
+struct TheoryError {
+    std::size_t material = 0;
+    std::size_t probe = 0;
+    std::string set;
+    double error = 0.0;
+};
+
 /// Date and command of a report, statistics of its probes, and its rows for thin films.
 struct ReportOrigin {
     std::string date;     ///< UTC, ISO 8601
     std::string command;  ///< as it was typed
     std::vector<ProbeStatistics> probes{};
     std::vector<std::vector<FilmRow>> films{};  ///< for each probe
+    std::vector<TheoryError> theories{};        ///< of gratings that rigorous theory knows
 };
 
 /// The data of the report's script. Reads the materials from the files of `inputs`. `paper`: paper_evidence().

@@ -15,7 +15,9 @@
 #include "engine/core/json_reader.h"
 #include "engine/core/log.h"
 #include "engine/core/text.h"
+#include "modules/diffraction/evaluate/error_measure.h"
 #include "modules/diffraction/reference/reference.h"
+#include "modules/diffraction/rigorous/efficiencies.h"
 
 namespace rowland::trade {
 
@@ -108,7 +110,9 @@ Sweep::Sweep(SweepInputs inputs)
         const nlohmann::json json = diffraction::load_material_json(path);
         diffraction::Material parsed = with_efficiencies(diffraction::load_material(path), path.string());
         for (const diffraction::Method& setting : inputs_.settings) check_method(json, path.string(), setting);
-        const auto settings = inputs_.settings.empty() ? sweep_plan(parsed.grating.lobe) : inputs_.settings;
+        auto settings = inputs_.settings.empty() ? sweep_plan(parsed.grating.lobe) : inputs_.settings;
+        if (inputs_.settings.empty())
+            std::erase_if(settings, [&](const auto& setting) { return refusal(setting, parsed.grating).has_value(); });
         materials_.push_back({json, path.string(), material_hash(json, path), std::move(parsed), settings});
     }
     for (const ProbeFile& file : inputs_.probes) {
@@ -143,24 +147,44 @@ diffraction::CookedMaterial Sweep::cook(std::size_t material, const diffraction:
     return diffraction::cook(materials_[material].json, materials_[material].file, setting);
 }
 
-std::vector<glm::dvec3> Sweep::reference(std::size_t material, std::size_t probe,
+std::vector<glm::dvec3> Sweep::reference(std::size_t material, const diffraction::Grating& grating, std::size_t probe,
                                          std::span<const diffraction::ShadingPoint> frames) {
     const auto& [json, file, hash, parsed, settings] = materials_[material];
-    const std::string key = key_of({reference_version(), hash, probes_[probe].hash, hash_of(frames)});
+    const std::string theory = grating.theory == diffraction::Theory::Scalar ? "scalar" : "rigorous";
+    const std::string key = key_of({reference_version(), hash, theory, probes_[probe].hash, hash_of(frames)});
     if (references_.find(key) == nullptr)
-        references_.add(key, to_json(reference_radiance(parsed.grating, probes_[probe].image,
+        references_.add(key, to_json(reference_radiance(grating, probes_[probe].image,
                                                         colour::LightSpectra(parsed.quality.illuminant), frames)));
     return to_vectors(*references_.find(key));
 }
 
-const diffraction::MeasuredScene& Sweep::scene(std::size_t material, std::size_t probe, const FrameSet& set) {
-    const auto by_reference = [this, material, probe](std::span<const diffraction::ShadingPoint> part) {
-        return reference(material, probe, part);
+const diffraction::MeasuredScene& Sweep::scene_of(std::size_t material, const diffraction::Grating& grating,
+                                                  std::size_t probe, const FrameSet& set) {
+    const auto by_reference = [this, material, grating, probe](std::span<const diffraction::ShadingPoint> part) {
+        return reference(material, grating, probe, part);
     };
     diffraction::MeasuredScene scene{set.name, probes_[probe].lights, set.surfaces, kReferencePart, by_reference};
-    auto& known = scenes_.try_emplace({material, probe, set.name}, std::move(scene)).first->second;
+    auto& known = scenes_.try_emplace({material, grating.theory, probe, set.name}, std::move(scene)).first->second;
     known.prepare();
     return known;
+}
+
+const diffraction::MeasuredScene& Sweep::scene(std::size_t material, std::size_t probe, const FrameSet& set) {
+    return scene_of(material, materials_[material].parsed.grating, probe, set);
+}
+
+std::optional<double> Sweep::theory_error(std::size_t material, std::size_t probe, const FrameSet& set) {
+    using diffraction::Theory;
+    diffraction::Grating scalar = materials_[material].parsed.grating;
+    if (rigorous_refusal(scalar)) return std::nullopt;
+    diffraction::Grating rigorous = scalar;
+    rigorous.theory = Theory::Rigorous;
+    if (scalar.theory == Theory::Scalar)
+        rigorous.efficiencies = rigorous_efficiencies(rigorous, materials_[material].file);
+    scalar.theory = Theory::Scalar;
+    scalar.efficiencies = nullptr;
+    const std::vector<glm::dvec3>& truth = scene_of(material, rigorous, probe, set).reference;
+    return diffraction::relative_rms(scene_of(material, scalar, probe, set).reference, truth);
 }
 
 std::string Sweep::error_key(const ErrorRow& row) const {

@@ -70,6 +70,9 @@ class Sweep {
 
     /// A set under a probe, with the reference of a material. The reference stays valid.
     const diffraction::MeasuredScene& scene(std::size_t material, std::size_t probe, const FrameSet& set);
+    /// Relative RMS of the reference with scalar theory's efficiencies from that with rigorous theory's, whichever the
+    /// material has; nullopt if rigorous theory does not know the grating.
+    std::optional<double> theory_error(std::size_t material, std::size_t probe, const FrameSet& set);
     diffraction::CookedMaterial cook(std::size_t material, const diffraction::Method& setting) const;
     const PictureFrames& picture_frames() const { return picture_; }
     const lighting::ProbeImage& probe(std::size_t i) const { return probes_.at(i).image; }
@@ -91,8 +94,11 @@ class Sweep {
 
     const FrameSet& set_named(const std::string& name) const;
     std::vector<ErrorRow> all_rows() const;
-    std::vector<glm::dvec3> reference(std::size_t material, std::size_t probe,
+    /// `grating`: the material's, or that of its other theory.
+    std::vector<glm::dvec3> reference(std::size_t material, const diffraction::Grating& grating, std::size_t probe,
                                       std::span<const diffraction::ShadingPoint> frames);
+    const diffraction::MeasuredScene& scene_of(std::size_t material, const diffraction::Grating& grating,
+                                               std::size_t probe, const FrameSet& set);
     std::string error_key(const ErrorRow& row) const;
     std::string time_key(std::size_t material, const diffraction::Method& setting, const std::string& device) const;
     void measure_errors(const SweepResults& results);
@@ -105,7 +111,8 @@ class Sweep {
     std::vector<ProbeSource> probes_;
     Journal references_;
     Journal results_;
-    std::map<std::tuple<std::size_t, std::size_t, std::string>, diffraction::MeasuredScene> scenes_;
+    std::map<std::tuple<std::size_t, diffraction::Theory, std::size_t, std::string>, diffraction::MeasuredScene>
+        scenes_;
 };
 
 }  // namespace rowland::trade

@@ -159,6 +159,19 @@ std::vector<DifferencePicture> difference_pictures(Sweep& sweep, const SweepResu
     return pictures;
 }
 
+std::vector<TheoryError> theory_errors(Sweep& sweep, const SweepResults& results) {
+    std::vector<TheoryError> errors;
+    for (std::size_t m = 0; m < results.materials.size(); ++m)
+        for (std::size_t p = 0; p < results.probes.size(); ++p) {
+            const auto add = [&](const FrameSet& set) {
+                if (const auto error = sweep.theory_error(m, p, set)) errors.push_back({m, p, set.name, *error});
+            };
+            for (const FrameSet& set : sweep.inputs().frame_sets) add(set);
+            add(sweep.picture_frames().frames);
+        }
+    return errors;
+}
+
 std::string now() {
     return fmt::format("{:%FT%TZ}", fmt::gmtime(std::time(nullptr)));
 }
@@ -168,7 +181,7 @@ void run_report(const SweepOptions& options, const std::string& command_line) {
     const SweepResults results = run_and_write(sweep);
     const auto differences = difference_pictures(sweep, results);
     const auto paper = paper_evidence(sweep.cook(0, paper_setting()), sweep.inputs().frame_size, sweep.inputs().times);
-    ReportOrigin origin{.date = now(), .command = command_line};
+    ReportOrigin origin{.date = now(), .command = command_line, .theories = theory_errors(sweep, results)};
     for (std::size_t i = 0; i < results.probes.size(); ++i) {
         origin.probes.push_back(statistics_of(sweep.probe(i)));
         origin.films.push_back(film_rows(sweep.probe(i)));

@@ -19,7 +19,7 @@
 namespace rowland::diffraction {
 
 inline constexpr const char* kMaterialAssetType = "material";
-inline constexpr std::uint32_t kMaterialAssetVersion = 8;
+inline constexpr std::uint32_t kMaterialAssetVersion = 9;
 
 /// A material with its baked tables.
 struct CookedMaterial {

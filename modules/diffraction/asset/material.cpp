@@ -14,7 +14,7 @@
 #include "modules/diffraction/asset/quality.h"
 #include "modules/diffraction/model/brdf.h"
 #include "modules/diffraction/model/grating.h"
-#include "modules/diffraction/rigorous/efficiencies.h"
+#include "modules/diffraction/rigorous/relief.h"
 
 namespace rowland::diffraction {
 
@@ -94,37 +94,30 @@ void check_few_grooves(JsonReader& json, const Grating& grating) {
         json.fail("grooves", fmt::format("{} with {}", grating.grooves, what), fmt::format("at least {}", kManyGrooves),
                   why);
     };
-    if (grating.theory == Theory::Rigorous)
-        refuse("rigorous theory", "it does not give the groove's spectrum between the orders");
     if (std::holds_alternative<EfficiencyTable>(grating.profile))
         refuse("a table of efficiencies", "a table does not hold the groove's spectrum between the orders");
     if (std::holds_alternative<PitsLobe>(grating.lobe))
         refuse("a lobe of pits", "with few grooves the lobe must be the same for every wavelength");
 }
 
-/// "theory", which relief_of() and solve_efficiencies() must be able to follow.
-void parse_theory(JsonReader& json, Grating& grating) {
-    if (json.choice_or("theory", "scalar", {"scalar", "rigorous"}) == "scalar") return;
-    const auto refuse = [&](const std::string& found, const std::string& expected, const char* remedy) {
-        json.fail("theory", "\"rigorous\" with " + found, expected, remedy);
-    };
-    if (std::holds_alternative<SlitProfile>(grating.profile) ||
-        std::holds_alternative<EfficiencyTable>(grating.profile))
-        refuse("a profile without a relief", "lamellar, sinusoidal or blazed grooves", "use \"scalar\"");
-    const double finest_nm = colour::kVisibleMin / 2.0;
-    if (!(grating.pitch_nm > finest_nm && grating.pitch_nm <= kCoarsestSolved_nm))
-        refuse(fmt::format("a pitch of {} nm", grating.pitch_nm),
-               fmt::format("more than {} nm, below which no order but 0 propagates, and up to {} nm", finest_nm,
-                           kCoarsestSolved_nm),
-               "use \"scalar\"");
-    grating.theory = Theory::Rigorous;
+std::vector<DielectricFilm> parse_films(JsonReader& json, double pitch_nm) {
+    NumberRange thickness = kPositive;
+    if (!json.is_recording_schema()) thickness.maximum = pitch_nm;  // thicker ones do not follow the relief
+    std::vector<DielectricFilm> films;
+    for (JsonReader& film : json.objects("films", 1, kMaximumFilms)) {
+        films.push_back({.ior = film.number("ior", {.minimum = 1.0, .maximum = 4.0}),
+                         .thickness_nm = film.number("thickness_nm", thickness)});
+        film.finish();
+    }
+    return films;
 }
 
 Grating parse_grooves(JsonReader& json, const ReadNamed& read) {
     Grating grating;
     grating.pitch_nm = json.number("pitch_nm", {.minimum = 1.0, .maximum = 1e7});
     grating.profile = parse_profile(json.object("profile"), grating.pitch_nm, read);
-    parse_theory(json, grating);
+    if (json.choice_or("theory", "scalar", {"scalar", "rigorous"}) == "rigorous") grating.theory = Theory::Rigorous;
+    if (json.has("films")) grating.films = parse_films(json, grating.pitch_nm);
     if (depends_on_incidence(grating.profile))
         grating.efficiencies = std::make_shared<const EfficiencyGrid>(
             efficiency_grid(std::get<EfficiencyTable>(grating.profile), grating.pitch_nm));
@@ -148,6 +141,22 @@ Grating parse_grating(JsonReader json, const ReadNamed& read) {
         [&](JsonReader& grooves) { grating = parse_grooves(grooves, read); });
     json.finish();
     return grating;
+}
+
+/// Rigorous theory where it knows the grooves, unless the file names a theory or a representation that cannot take it.
+/// Only rigorous theory knows films.
+void choose_theory(JsonReader& json, Material& material) {
+    if (json.is_recording_schema()) return;
+    Grating& grating = material.grating;
+    const bool named = json.raw("grating").contains("theory");
+    const auto refused = rigorous_refusal(grating);
+    if (grating.theory == Theory::Rigorous && refused)
+        json.fail(refused->key.substr(1), refused->found, refused->expected, refused->remedy);
+    const bool takes_it = !material.quality.pinned || info(*material.quality.pinned).lobes != Lobes::Mirroring;
+    if (!named && !refused && takes_it) grating.theory = Theory::Rigorous;
+    if (!grating.films.empty() && grating.theory == Theory::Scalar)
+        json.fail("grating/films", "films without rigorous theory", "lamellar, sinusoidal or blazed grooves of a metal",
+                  "leave the films out");
 }
 
 /// Every transparent solid in visible light; diamond has 2.42.
@@ -276,10 +285,9 @@ Material parse_material(JsonReader& reader, const ReadNamed& read) {
         refuse_beside_transmission(reader);
         material.grating.transmission = parse_transmission(reader.object("transmission"), material.grating.profile);
     }
-    if (material.grating.theory == Theory::Rigorous && !material.grating.metal)
-        reader.fail("grating/theory", "\"rigorous\" without a metal", "grooves of a metal", "add \"metal\": \"Al\"");
     if (reader.has("base")) material.base = parse_base(reader.object("base"));
     if (reader.has("quality")) material.quality = parse_quality(reader.object("quality"), material.grating, read);
+    choose_theory(reader, material);
     return material;
 }
 

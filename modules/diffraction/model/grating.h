@@ -5,6 +5,7 @@
 #include <glm/vec3.hpp>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "engine/colour/illuminant.h"
@@ -57,6 +58,17 @@ bool is_valid(const ShadingPoint& frame);
 /// be valid.
 glm::dmat3 world_to_tangent(const ShadingPoint& frame);
 
+/// A transparent film on the relief of the grooves, thinner than the pitch: only rigorous theory knows it (PHYSICS
+/// §14).
+struct DielectricFilm {
+    double ior = 1.5;  ///< n at all wavelengths, 1 to 4
+    double thickness_nm = 0.0;
+
+    friend bool operator==(const DielectricFilm&, const DielectricFilm&) = default;
+};
+
+inline constexpr std::size_t kMaximumFilms = 4;
+
 /// A thin sheet that sends light through (PHYSICS §12).
 struct Transmission {
     double ior = 1.5;          ///< n of the sheet at all wavelengths, at least 1; slits and tables do not depend on it
@@ -85,6 +97,15 @@ inline constexpr double kManyGrooves = 50.0;
 /// Wavelength at which the two normalisations agree.
 inline constexpr double kAguWavelength_nm = 550.0;
 
+/// Why a grating is refused, as the parts of an Error. `key`: the member of "quality" or, with a leading '/', of the
+/// material.
+struct Refusal {
+    std::string key;
+    std::string found;
+    std::string expected;
+    std::string remedy{};
+};
+
 /// How the efficiencies of a relief are found.
 enum class Theory {
     Scalar,   ///< the closed forms of PHYSICS §3, which do not depend on the directions
@@ -107,6 +128,7 @@ struct Grating {
     std::optional<Transmission> transmission = std::nullopt;
     std::optional<double> side_reflectance = std::nullopt;  ///< of reflected_side(): R at all wavelengths
     Theory theory = Theory::Scalar;
+    std::vector<DielectricFilm> films = {};  ///< from the metal up; of Theory::Rigorous alone
     /// Efficiencies that depend on the direction, the metal included: those of Theory::Rigorous, once they are solved,
     /// or of a table of several incidences. Null: they do not depend on it.
     std::shared_ptr<const EfficiencyGrid> efficiencies = nullptr;

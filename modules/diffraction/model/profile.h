@@ -42,16 +42,22 @@ struct SlitProfile {
 struct LamellarProfile {
     double duty = 0.5;  ///< 0 < w < 1
     double depth_nm = 0.0;
+
+    friend bool operator==(const LamellarProfile&, const LamellarProfile&) = default;
 };
 
 /// A sinusoidal groove; the depth is peak to peak.
 struct SinusoidalProfile {
     double depth_nm = 0.0;
+
+    friend bool operator==(const SinusoidalProfile&, const SinusoidalProfile&) = default;
 };
 
 /// A linear ramp whose depth grows toward +g: it favours orders m > 0.
 struct BlazedProfile {
     double depth_nm = 0.0;
+
+    friend bool operator==(const BlazedProfile&, const BlazedProfile&) = default;
 };
 
 /// The shape of a groove. A new one also needs, in profile.cpp, the overloads efficiency(), spectrum() and describe()

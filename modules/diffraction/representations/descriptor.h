@@ -62,15 +62,6 @@ struct RepresentationInfo {
     const SettingInfo* find(std::string_view key) const;
 };
 
-/// Why settings do not suit a grating, as the parts of an Error. `key`: the member of "quality" or, with a leading '/',
-/// of the material.
-struct Refusal {
-    std::string key;
-    std::string found;
-    std::string expected;
-    std::string remedy{};
-};
-
 /// Settings of one representation, each within its SettingInfo's limits.
 class SettingValues {
  public:

@@ -19,8 +19,12 @@ namespace {
 
 /// Light for which a wavelength's truncation is chosen: no symmetry hides an order from it.
 constexpr double kConvergedFor = 0.31;
-/// The truncation is chosen at every so many rows; between, the larger of the two neighbours' margins holds.
-constexpr int kRowsPerChoice = 5;
+/// The truncation is chosen at every so many rows; between, the larger of the two neighbours' margins holds. A coarse
+/// grating's solves take long, and its margins are alike.
+int rows_per_choice(double pitch_nm) {
+    constexpr double kCoarse_nm = 4000.0;
+    return pitch_nm > kCoarse_nm ? 20 : 5;
+}
 
 /// The s_g that are solved at one wavelength. Each gives light from s_g + kλ/d as well, all together (if `symmetric`,
 /// with the opposite ones) equal steps as fine as the grid's. Of the two such sets that are symmetric about 0, the one
@@ -96,29 +100,20 @@ std::vector<int> orders_of(double pitch_nm) {
     return orders;
 }
 
-void check_pitch(const Relief& relief, const std::string& name) {
-    const double finest_nm = colour::kVisibleMin / 2.0;
-    if (relief.pitch_nm > finest_nm && relief.pitch_nm <= kCoarsestSolved_nm) return;
-    refuse_input(name, "/grating/pitch_nm", fmt::format("{}", relief.pitch_nm),
-                 fmt::format("a pitch above {}, from which on orders propagate, and up to {} for rigorous theory",
-                             finest_nm, kCoarsestSolved_nm),
-                 "use \"theory\": \"scalar\"");
-}
-
 }  // namespace
 
 SolvedEfficiencies solve_efficiencies(const Relief& relief, colour::Metal metal, const std::string& name) {
     check_relief(relief, name);
-    check_pitch(relief, name);
     constexpr int kRows = EfficiencyGrid::kWavelengths;
     SolvedEfficiencies result{.grid = empty_grid(relief.pitch_nm, orders_of(relief.pitch_nm))};
     const std::vector<int>& orders = result.grid.orders;
     const bool symmetric = !std::holds_alternative<BlazedProfile>(relief.shape);
     const auto index_at = [&](int row) { return colour::metal_index(metal, EfficiencyGrid::wavelength_at(row)); };
 
-    std::vector<Margin> margins((kRows - 1) / kRowsPerChoice + 1);
+    const int rows_per_margin = rows_per_choice(relief.pitch_nm);
+    std::vector<Margin> margins(static_cast<std::size_t>((kRows - 1) / rows_per_margin + 1));
     parallel_for(margins.size(), [&](std::size_t i) {
-        const int row = static_cast<int>(i) * kRowsPerChoice;
+        const int row = static_cast<int>(i) * rows_per_margin;
         margins[i] = margin_at(relief, index_at(row), EfficiencyGrid::wavelength_at(row));
     });
     for (const Margin& margin : margins) result.error = std::max(result.error, margin.error);
@@ -138,7 +133,7 @@ SolvedEfficiencies solve_efficiencies(const Relief& relief, colour::Metal metal,
     parallel_for(solves.size(), [&](std::size_t i) {
         const auto [row, s_g] = solves[i];
         const double wavelength_nm = EfficiencyGrid::wavelength_at(row);
-        const auto below = static_cast<std::size_t>(row / kRowsPerChoice);
+        const auto below = static_cast<std::size_t>(row / rows_per_margin);
         const int margin = std::max(margins[below].orders, margins[std::min(below + 1, margins.size() - 1)].orders);
         const OrderEfficiencies solved = solve(relief, index_at(row), wavelength_nm, s_g,
                                                first_truncation(relief, index_at(row), wavelength_nm) + margin);
@@ -170,7 +165,7 @@ std::shared_ptr<const EfficiencyGrid> rigorous_efficiencies(const Grating& grati
     static std::mutex mutex;
     static std::vector<Known> known;
     const Relief relief = relief_of(grating, name);
-    const std::string key = std::visit(
+    std::string key = std::visit(
         [&](const auto& shape) {
             double duty = 0.0;
             if constexpr (requires { shape.duty; }) duty = shape.duty;
@@ -178,6 +173,7 @@ std::shared_ptr<const EfficiencyGrid> rigorous_efficiencies(const Grating& grati
                                relief.ambient_ior, static_cast<int>(*grating.metal));
         },
         relief.shape);
+    for (const DielectricFilm& film : relief.films) key += fmt::format(" {} {}", film.ior, film.thickness_nm);
     {
         const std::lock_guard lock(mutex);
         for (const Known& one : known)

@@ -8,9 +8,6 @@
 
 namespace rowland::diffraction {
 
-/// The coarsest grating that is solved: 105 orders of visible light are above the horizon.
-inline constexpr double kCoarsestSolved_nm = 20000.0;
-
 /// A tenth of what interpolation between the grid's nodes may be off; silver's edges under a cover leave no less.
 inline constexpr double kGridTolerance = 2e-3;
 
@@ -22,8 +19,7 @@ struct SolvedEfficiencies {
 
 /// The efficiencies of all orders of a relief for light of all visible wavelengths from all directions of the classical
 /// plane, each mean of both polarisations. Converged to kGridTolerance. Uses all cores, the result does not depend on
-/// their number; shows progress as `name`. Throws Error (input) as solve_converged(), and for a pitch above
-/// kCoarsestSolved_nm or below λ/2, at which no order but 0 propagates.
+/// their number; shows progress as `name`. Throws Error (input) as solve_converged().
 ///
 /// One solve gives light from directions λ/d apart: a wavelength takes as many as fill the grid's step, of a symmetric
 /// relief half of them.

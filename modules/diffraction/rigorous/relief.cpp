@@ -10,6 +10,8 @@ namespace rowland::diffraction {
 
 namespace {
 
+constexpr double kDeepest = 4.0;  ///< in pitches
+
 struct Bounds {
     const std::string& name;
 
@@ -30,7 +32,7 @@ void check_relief(const Relief& relief, const std::string& name) {
     bounds.check("cover/ior", relief.ambient_ior, 1.0, 4.0, false, "name a transparent medium");
     std::visit(
         [&](const auto& shape) {
-            bounds.check("profile/depth_nm", shape.depth_nm, 0.0, 4.0 * relief.pitch_nm, false,
+            bounds.check("profile/depth_nm", shape.depth_nm, 0.0, kDeepest * relief.pitch_nm, false,
                          "reduce the depth: the solver knows reliefs up to four pitches deep");
             if constexpr (requires { shape.duty; })
                 bounds.check("profile/duty", shape.duty, 0.0, 1.0, true, "for a flat surface set the depth to 0");
@@ -46,22 +48,46 @@ void check_relief(const Relief& relief, const std::string& name) {
     }
 }
 
+std::optional<Refusal> rigorous_refusal(const Grating& grating) {
+    const auto with = [](const std::string& found, const char* expected) {
+        return Refusal{"/grating/theory", "\"rigorous\" with " + found, expected, "use \"scalar\""};
+    };
+    constexpr const char* kReliefs = "lamellar, sinusoidal or blazed grooves";
+    if (grating.lattice) return with("a lattice", kReliefs);
+    const auto depth_nm = [](const auto& shape) -> std::optional<double> {
+        if constexpr (std::is_constructible_v<decltype(Relief::shape), decltype(shape)>) return shape.depth_nm;
+        return std::nullopt;
+    };
+    const std::optional<double> depth = std::visit(depth_nm, grating.profile);
+    if (!depth) return with("a profile without a relief", kReliefs);
+    if (grating.transmission || grating.side_reflectance) return with("a sheet", "grooves of a metal");
+    if (!grating.metal)
+        return Refusal{"/grating/theory", "\"rigorous\" without a metal", "grooves of a metal",
+                       "add \"metal\": \"Al\""};
+    const double finest_nm = colour::kVisibleMin / 2.0;
+    if (!(grating.pitch_nm > finest_nm && grating.pitch_nm <= kCoarsestSolved_nm))
+        return with(fmt::format("a pitch of {} nm", grating.pitch_nm),
+                    "more than 190 nm, below which no order but 0 propagates, and up to 20000 nm");
+    if (*depth > kDeepest * grating.pitch_nm)
+        return with(fmt::format("a depth of {} nm", *depth), "grooves up to four pitches deep");
+    if (grating.grooves < kManyGrooves)
+        return Refusal{"/grating/grooves", fmt::format("{} with rigorous theory", grating.grooves),
+                       fmt::format("at least {}", kManyGrooves),
+                       "it does not give the groove's spectrum between the orders"};
+    return std::nullopt;
+}
+
 Relief relief_of(const Grating& grating, const std::string& name) {
-    const char* const expected = "lamellar, sinusoidal or blazed grooves of a metal";
-    if (grating.lattice) refuse_input(name, "/grating/lattice", "a lattice", expected, "use scalar theory");
-    if (grating.transmission)
-        refuse_input(name, "/transmission", "a sheet that transmits", expected, "use scalar theory");
-    if (!grating.metal) refuse_input(name, "/metal", "no metal", expected, "add \"metal\": \"Al\"");
-    Relief relief{.pitch_nm = grating.pitch_nm, .shape = {}, .ambient_ior = groove_medium(grating.cover)};
+    if (const auto refused = rigorous_refusal(grating))
+        refuse_input(name, refused->key, refused->found, refused->expected, refused->remedy);
+    Relief relief{
+        .pitch_nm = grating.pitch_nm, .shape = {}, .films = grating.films, .ambient_ior = groove_medium(grating.cover)};
     std::visit(
         [&](const auto& shape) {
-            if constexpr (requires { relief.shape = shape; })
-                relief.shape = shape;
-            else
-                refuse_input(name, "/grating/profile/type", "a profile without a relief", expected,
-                             "use scalar theory, or another profile");
+            if constexpr (requires { relief.shape = shape; }) relief.shape = shape;
         },
         grating.profile);
+    check_relief(relief, name);
     return relief;
 }
 

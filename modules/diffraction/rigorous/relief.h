@@ -1,6 +1,6 @@
 #pragma once
 
-#include <cstddef>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -9,14 +9,6 @@
 #include "modules/diffraction/model/profile.h"
 
 namespace rowland::diffraction {
-
-/// A transparent film on a relief.
-struct DielectricFilm {
-    double ior = 1.5;  ///< n at all wavelengths, 1 to 4
-    double thickness_nm = 0.0;
-};
-
-inline constexpr std::size_t kMaximumFilms = 4;
 
 /// A relief that the rigorous solver knows: periodic along g, uniform along h, on a substrate whose index is given with
 /// the wavelength. A depth of 0 is a flat surface.
@@ -29,6 +21,8 @@ struct Relief {
     std::variant<LamellarProfile, SinusoidalProfile, BlazedProfile> shape = {};
     std::vector<DielectricFilm> films = {};  ///< from the substrate up
     double ambient_ior = 1.0;                ///< of the medium that the light comes from, ≥ 1
+
+    friend bool operator==(const Relief&, const Relief&) = default;
 };
 
 /// Checks what solve() requires. Throws Error (input) that calls the relief `name`: pitch not in (0, 1e5] nm, depth not
@@ -36,8 +30,16 @@ struct Relief {
 /// thicker than the pitch or with an index outside 1 to 4.
 void check_relief(const Relief& relief, const std::string& name);
 
-/// The relief of a grating, without films: lamellar, sinusoidal or blazed grooves of a metal, in air or under its
-/// cover. Throws Error (input) that calls it `name` for any other grating.
+/// The coarsest grating that is solved: 105 orders of visible light are above the horizon.
+inline constexpr double kCoarsestSolved_nm = 20000.0;
+
+/// Why rigorous theory does not know a grating; nullopt for at least kManyGrooves lamellar, sinusoidal or blazed
+/// grooves of a metal, in air or under a cover, at a pitch above λ/2, below which no order but 0 propagates, and up to
+/// kCoarsestSolved_nm, with a relief that check_relief() takes. Films are not looked at.
+std::optional<Refusal> rigorous_refusal(const Grating& grating);
+
+/// The relief of a grating with its films. Throws Error (input) that calls it `name` where rigorous_refusal() or
+/// check_relief() does.
 Relief relief_of(const Grating& grating, const std::string& name);
 
 }  // namespace rowland::diffraction

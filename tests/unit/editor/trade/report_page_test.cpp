@@ -79,6 +79,8 @@ class ReportPage : public ::testing::Test {
         chromium_ = browser();
         if (chromium_.empty()) GTEST_SKIP() << "no chromium";
         test::write_sweep_inputs(folder_.path());
+        write_file_atomic(folder_.path() / "cd.json", R"({"grating": {"pitch_nm": 1600, "profile": {"type": "lamellar",
+            "duty": 0.35, "depth_nm": 120}, "theory": "scalar"}, "metal": "Al"})");
     }
     std::string report(const std::string& arguments) {
         const auto run = test::run_trade(folder_.path(), "report " + arguments + " " + test::small_sweep());
@@ -128,6 +130,13 @@ TEST_F(ReportPage, ChartsShowTheTablesNumbers) {
     }
     EXPECT_NE(page.find("<a href=\"http://127.0.0.1:8080/#representation=direct&amp;material=%7B%22"),
               std::string::npos);
+    // The theory's own error, measured: 6 % on the disc, 11 % on the sphere.
+    const auto theory_error = [&](const char* set) {
+        const std::string text = part(page, fmt::format("<h3>Points: {}", set), "%.</p>");
+        return std::stod(text.substr(text.rfind(' ', text.size() - 2)));
+    };
+    EXPECT_NEAR(theory_error("tilted_cd"), 6.0, 1.0);
+    EXPECT_NEAR(theory_error("sphere"), 11.0, 1.0);
     // Fig. 3 falls with the number of lights for the loop, and not for SH.
     const std::string figure_3 = part(page, "data-chart=\"figure 3\"", "</svg>");
     const Axis y = read_axis(figure_3, "y", "y");

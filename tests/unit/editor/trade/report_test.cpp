@@ -51,6 +51,12 @@ TEST(Report, MarksTheFronts) {
     EXPECT_EQ(rows[2]["memory"], 3000);
 }
 
+TEST(Report, SaysWhatTheTheoryIsOffWhereItIsKnown) {
+    const auto data = report_data(results(), {}, {}, {}, {.theories = {{0, 0, "sphere", 0.4}, {0, 0, "picture", 0.3}}});
+    EXPECT_EQ(data["panels"][0]["theory_error"], 0.3);
+    EXPECT_TRUE(report_data(results(), {}, {}, {}, {})["panels"][0]["theory_error"].is_null());
+}
+
 TEST(Report, FiguresFollowTheMeasurements) {
     SweepResults changed = results();
     changed.errors[1].error.relative_rms = 0.9;

@@ -3,7 +3,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <set>
+
+#include "editor/trade/sweep.h"
+#include "engine/core/file.h"
+#include "modules/diffraction/evaluate/error_measure.h"
+#include "tests/support/files.h"
+#include "tests/unit/editor/trade/trade_run.h"
 
 namespace rowland::trade {
 namespace {
@@ -75,6 +82,37 @@ TEST(SweepPlan, LeavesOutWhatALobeCannotBeShadedBy) {
     }
     const auto flat = names(sweep_plan(diffraction::FlatLobe{}));
     EXPECT_TRUE(std::none_of(flat.begin(), flat.end(), [](const auto& name) { return name.starts_with("streak"); }));
+}
+
+/// The same whichever of the two the material has, and what two references say.
+TEST(Sweep, MeasuresWhatItsTheoryIsOff) {
+    const test::TemporaryFolder folder;
+    test::write_sweep_inputs(folder.path());
+    const auto material = [&](const std::string& name, const std::string& profile, const std::string& theory) {
+        write_file_atomic(folder.path() / name, R"({"grating": {"pitch_nm": 900, "profile": )" + profile + theory +
+                                                    R"(, "orders": [1]}, "metal": "Ag"})");
+        return folder.path() / name;
+    };
+    const std::string sine = R"({"type": "sinusoidal", "depth_nm": 150})";
+    SweepInputs inputs;
+    inputs.materials = {material("default.json", sine, ""), material("scalar.json", sine, R"(, "theory": "scalar")"),
+                        material("slit.json", R"({"type": "slit", "width_nm": 300})", "")};
+    inputs.probes = {{folder.path() / "sky.hdr"}};
+    inputs.settings = {diffraction::parse_method("direct")};
+    inputs.folder = folder.path() / "results";
+    std::filesystem::create_directory(inputs.folder);
+    Sweep sweep(inputs);
+    std::vector<diffraction::Surface> surfaces = tilted_cd_frames().surfaces;
+    surfaces.resize(1);
+    const FrameSet set{"some", surfaces};
+    const auto error = sweep.theory_error(0, 0, set);
+    ASSERT_TRUE(error);
+    EXPECT_EQ(error, sweep.theory_error(1, 0, set));
+    EXPECT_FALSE(sweep.theory_error(2, 0, set));
+    const auto& rigorous = sweep.scene(0, 0, set).reference;
+    const auto& scalar = sweep.scene(1, 0, set).reference;
+    EXPECT_EQ(*error, diffraction::relative_rms(scalar, rigorous));
+    EXPECT_GT(*error, 0.02);
 }
 
 }  // namespace

@@ -58,6 +58,31 @@ std::string with_sides(const std::string& a_nm, const std::string& b_nm) {
            "}}";
 }
 
+/// Unless the file names it: rigorous where the solver knows the grooves and the representation takes it.
+TEST(Material, TheTheoryFollowsTheGrooves) {
+    const std::string al = R"(, "metal": "Al")";
+    const auto theory = [](const std::string& profile, const std::string& grating, const std::string& more) {
+        return parse(with_profile(profile, grating, more)).grating.theory;
+    };
+    for (const char* relief : {R"({"type": "sinusoidal", "depth_nm": 100})", R"({"type": "blazed", "depth_nm": 100})",
+                               R"({"type": "lamellar", "duty": 0.4, "depth_nm": 100})"}) {
+        EXPECT_EQ(theory(relief, "", al), Theory::Rigorous) << relief;
+        EXPECT_EQ(theory(relief, "", al + R"(, "cover": {"ior": 1.5})"), Theory::Rigorous) << relief;
+        EXPECT_EQ(theory(relief, R"(, "theory": "scalar")", al), Theory::Scalar) << relief;
+        EXPECT_EQ(theory(relief, "", ""), Theory::Scalar) << relief;
+        EXPECT_EQ(theory(relief, R"(, "grooves": 20)", al), Theory::Scalar) << relief;
+        EXPECT_EQ(
+            theory(relief, R"(, "groove_lobe": {"sigma": 0.1})", al + R"(, "quality": {"representation": "streak"})"),
+            Theory::Scalar)
+            << relief;
+    }
+    EXPECT_EQ(theory(kSlit, "", al), Theory::Scalar);
+    EXPECT_EQ(theory(kTable, "", ""), Theory::Scalar);
+    const Material filmed = parse(with_profile(R"({"type": "sinusoidal", "depth_nm": 100})",
+                                               R"(, "films": [{"ior": 1.6, "thickness_nm": 120}])", al));
+    EXPECT_EQ(filmed.grating.films, (std::vector<DielectricFilm>{{.ior = 1.6, .thickness_nm = 120.0}}));
+}
+
 TEST(MaterialJson, OnlyPitchAndProfileAreRequired) {
     const Material material = parse(grating(""));
     EXPECT_EQ(material.grating.pitch_nm, 1600.0);
@@ -235,6 +260,24 @@ TEST(MaterialJson, MembersOutOfTheirDomainAreRefusedByFileAndPointer) {
     cases.push_back({solved(sine, "", ""), {"/grating/theory", "metal"}});
     cases.push_back({solved(sine, "", R"(, "transmission": {"ior": 1.5})"), {"/grating/theory", "metal"}});
     cases.push_back({solved(sine, R"(, "grooves": 20)", al), {"/grating/grooves", "rigorous"}});
+    constexpr const char* deep = R"({"type": "sinusoidal", "depth_nm": 6401})";
+    cases.push_back({solved(deep, "", al), {"/grating/theory", "6401"}});
+    for (const auto& [film, place] : {std::pair{R"({"ior": 0.9, "thickness_nm": 50})", "/grating/films/0/ior"},
+                                      {R"({"ior": 4.1, "thickness_nm": 50})", "/grating/films/0/ior"},
+                                      {R"({"ior": 1.5, "thickness_nm": 0})", "/grating/films/0/thickness_nm"},
+                                      {R"({"ior": 1.5, "thickness_nm": 1601})", "/grating/films/0/thickness_nm"},
+                                      {R"({"ior": 1.5})", "/grating/films/0/thickness_nm"},
+                                      {R"({"ior": 1.5, "thickness_nm": 9, "k": 1})", "/grating/films/0"}})
+        cases.push_back({with_profile(sine, std::string(R"(, "films": [)") + film + "]", al), {place}});
+    const std::string film = R"({"ior": 1.5, "thickness_nm": 9})";
+    const std::string films = R"(, "films": [)" + film + "]";
+    cases.push_back({with_profile(sine, R"(, "films": [])", al), {"/grating/films"}});
+    cases.push_back(
+        {with_profile(sine, R"(, "films": [)" + film + "," + film + "," + film + "," + film + "," + film + "]", al),
+         {"/grating/films"}});
+    cases.push_back({with_profile(sine, films), {"/grating/films", "rigorous"}});
+    cases.push_back({with_profile(kSlit, films, al), {"/grating/films", "rigorous"}});
+    cases.push_back({with_profile(sine, films + R"(, "theory": "scalar")", al), {"/grating/films", "rigorous"}});
     cases.push_back(
         {solved(sine, R"(, "groove_lobe": {"sigma": 0.1})", al + R"(, "quality": {"representation": "streak"})"),
          {"/quality/representation", "directions"}});

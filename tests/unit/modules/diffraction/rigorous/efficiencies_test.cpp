@@ -55,5 +55,20 @@ TEST(RigorousEfficiencies, TheGridIsWhatSingleSolvesGive) {
                         grid.at(-order, 500.0, EfficiencyGrid::view_at(EfficiencyGrid::kViews - 1 - view)), 1e-8);
 }
 
+/// Also of two gratings that differ in their films alone, one after the other.
+TEST(RigorousEfficiencies, AFilmOnTheGroovesIsSolvedWithThem) {
+    Grating disc{.pitch_nm = 740.0, .profile = LamellarProfile{0.43, 100.0}};
+    disc.metal = colour::Metal::Al;
+    disc.theory = Theory::Rigorous;
+    const auto plain = rigorous_efficiencies(disc, "disc");
+    disc.films = {{.ior = 1.6, .thickness_nm = 120.0}};
+    const auto filmed = rigorous_efficiencies(disc, "disc");
+    const Relief relief = relief_of(disc, "disc");
+    EXPECT_EQ(relief.films, disc.films);
+    const SolvedEfficiencies known{.grid = *filmed};
+    EXPECT_LT(interpolation_error(known, relief, colour::Metal::Al, 30), 0.02);
+    EXPECT_GT(interpolation_error({.grid = *plain}, relief, colour::Metal::Al, 30), 0.1);
+}
+
 }  // namespace
 }  // namespace rowland::diffraction

@@ -1,0 +1,102 @@
+#include "editor/inspector/rigorous_curves.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "engine/colour/spectrum.h"
+#include "engine/core/parallel.h"
+#include "modules/diffraction/rigorous/solver.h"
+
+namespace rowland::inspector {
+
+namespace {
+
+using diffraction::Light;
+using diffraction::OrderEfficiencies;
+
+constexpr double kDegree = std::numbers::pi / 180.0;
+
+struct Steps {
+    int wavelength_nm;
+    double angle_deg;
+    int margin;  ///< beyond diffraction::first_truncation()
+};
+
+OrderEfficiencies solve_at(const RigorousInputs& inputs, double wavelength_nm, double s_g, int margin) {
+    const auto index = colour::metal_index(inputs.metal, wavelength_nm);
+    return diffraction::solve(inputs.relief, index, wavelength_nm, s_g,
+                              diffraction::first_truncation(inputs.relief, index, wavelength_nm) + margin);
+}
+
+/// Every solve of one wavelength gives light from s_g + kλ/d for all k.
+std::vector<double> comb_starts(const RigorousInputs& inputs, double angle_deg) {
+    const double period = std::min(inputs.wavelength_nm / inputs.relief.pitch_nm, 2.0);
+    const int count = std::max(1, static_cast<int>(std::ceil(period / (angle_deg * kDegree))));
+    std::vector<double> starts;
+    for (int i = 0; i < count; ++i) {
+        const double start = period * ((i + 0.5) / count - 0.5);
+        if (std::abs(start) < 1.0) starts.push_back(start);
+    }
+    return starts;
+}
+
+void add_incidences(const OrderEfficiencies& solved, double s_g, double period, std::vector<RigorousOrder>& curves) {
+    for (int i = 0; i < static_cast<int>(solved.v_g.size()); ++i) {
+        const int k = i + solved.first;
+        const double from = s_g - k * period;
+        if (std::abs(from) >= 1.0) continue;
+        for (RigorousOrder& curve : curves)
+            if (std::abs(curve.order * period - from) < 1.0)
+                curve.over_incidence.push_back({std::asin(from) / kDegree, solved.reflected(curve.order, Light::TE, k),
+                                                solved.reflected(curve.order, Light::TM, k)});
+    }
+}
+
+std::optional<std::vector<RigorousOrder>> curves_at(const RigorousInputs& inputs, const Steps& steps,
+                                                    const std::stop_token& stop) {
+    std::vector<std::pair<double, double>> lights;  // wavelength and s_g
+    for (int nm = colour::kVisibleMin; nm <= colour::kVisibleMax; nm += steps.wavelength_nm)
+        lights.emplace_back(nm, inputs.s_g);
+    const std::size_t wavelengths = lights.size();
+    for (const double s_g : comb_starts(inputs, steps.angle_deg)) lights.emplace_back(inputs.wavelength_nm, s_g);
+    std::vector<OrderEfficiencies> solved(lights.size());
+    parallel_for(lights.size(), [&](std::size_t i) {
+        if (!stop.stop_requested()) solved[i] = solve_at(inputs, lights[i].first, lights[i].second, steps.margin);
+    });
+    if (stop.stop_requested()) return std::nullopt;
+    std::vector<RigorousOrder> curves;
+    for (const int order : inputs.orders) curves.push_back({order, {}, {}});
+    for (std::size_t i = 0; i < lights.size(); ++i) {
+        const auto [wavelength_nm, s_g] = lights[i];
+        const double period = wavelength_nm / inputs.relief.pitch_nm;
+        if (i >= wavelengths) {
+            add_incidences(solved[i], s_g, period, curves);
+            continue;
+        }
+        for (RigorousOrder& curve : curves)
+            if (std::abs(curve.order * period - s_g) < 1.0)
+                curve.over_wavelength.push_back({wavelength_nm, solved[i].reflected(curve.order, Light::TE),
+                                                 solved[i].reflected(curve.order, Light::TM)});
+    }
+    for (RigorousOrder& curve : curves) std::ranges::sort(curve.over_incidence, {}, &PolarisedPoint::at);
+    return curves;
+}
+
+}  // namespace
+
+std::optional<std::vector<RigorousOrder>> rigorous_curves(
+    const RigorousInputs& inputs, const std::stop_token& stop,
+    const std::function<void(std::vector<RigorousOrder>)>& publish) {
+    auto coarse = curves_at(inputs, {.wavelength_nm = 50, .angle_deg = 6.0, .margin = 0}, stop);
+    if (!coarse) return std::nullopt;
+    publish(*std::move(coarse));
+    const auto index = colour::metal_index(inputs.metal, inputs.wavelength_nm);
+    const diffraction::Converged converged =
+        solve_converged(inputs.relief, index, inputs.wavelength_nm, inputs.s_g, 2e-3);
+    const int margin = converged.truncation - diffraction::first_truncation(inputs.relief, index, inputs.wavelength_nm);
+    return curves_at(inputs, {.wavelength_nm = 10, .angle_deg = 1.5, .margin = margin}, stop);
+}
+
+}  // namespace rowland::inspector
