@@ -5,7 +5,6 @@
 #include <numbers>
 #include <utility>
 
-#include "engine/colour/spectrum.h"
 #include "engine/core/parallel.h"
 #include "modules/diffraction/rigorous/solver.h"
 
@@ -16,7 +15,7 @@ namespace {
 using diffraction::Light;
 using diffraction::OrderEfficiencies;
 
-constexpr double kDegree = std::numbers::pi / 180.0;
+constexpr double kRadiansPerDegree = std::numbers::pi / 180.0;
 
 struct Steps {
     int wavelength_nm;
@@ -26,14 +25,15 @@ struct Steps {
 
 OrderEfficiencies solve_at(const RigorousInputs& inputs, double wavelength_nm, double s_g, int margin) {
     const auto index = colour::metal_index(inputs.metal, wavelength_nm);
+    const int truncation = diffraction::first_truncation(inputs.relief, index, wavelength_nm) + margin;
     return diffraction::solve(inputs.relief, index, wavelength_nm, s_g,
-                              diffraction::first_truncation(inputs.relief, index, wavelength_nm) + margin);
+                              std::min(truncation, diffraction::kMaximumTruncation));
 }
 
 /// Every solve of one wavelength gives light from s_g + kλ/d for all k.
 std::vector<double> comb_starts(const RigorousInputs& inputs, double angle_deg) {
     const double period = std::min(inputs.wavelength_nm / inputs.relief.pitch_nm, 2.0);
-    const int count = std::max(1, static_cast<int>(std::ceil(period / (angle_deg * kDegree))));
+    const int count = std::max(1, static_cast<int>(std::ceil(period / (angle_deg * kRadiansPerDegree))));
     std::vector<double> starts;
     for (int i = 0; i < count; ++i) {
         const double start = period * ((i + 0.5) / count - 0.5);
@@ -49,7 +49,8 @@ void add_incidences(const OrderEfficiencies& solved, double s_g, double period, 
         if (std::abs(from) >= 1.0) continue;
         for (RigorousOrder& curve : curves)
             if (std::abs(curve.order * period - from) < 1.0)
-                curve.over_incidence.push_back({std::asin(from) / kDegree, solved.reflected(curve.order, Light::TE, k),
+                curve.over_incidence.push_back({std::asin(from) / kRadiansPerDegree,
+                                                solved.reflected(curve.order, Light::TE, k),
                                                 solved.reflected(curve.order, Light::TM, k)});
     }
 }
@@ -89,6 +90,9 @@ std::optional<std::vector<RigorousOrder>> curves_at(const RigorousInputs& inputs
 std::optional<std::vector<RigorousOrder>> rigorous_curves(
     const RigorousInputs& inputs, const std::stop_token& stop,
     const std::function<void(std::vector<RigorousOrder>)>& publish) {
+    const auto violet = colour::metal_index(inputs.metal, colour::kVisibleMin);
+    if (diffraction::first_truncation(inputs.relief, violet, colour::kVisibleMin) > diffraction::kMaximumTruncation)
+        solve_converged(inputs.relief, violet, colour::kVisibleMin, inputs.s_g);  // refuses
     auto coarse = curves_at(inputs, {.wavelength_nm = 50, .angle_deg = 6.0, .margin = 0}, stop);
     if (!coarse) return std::nullopt;
     publish(*std::move(coarse));

@@ -5,7 +5,7 @@
 #include <stop_token>
 #include <vector>
 
-#include "engine/colour/metal.h"
+#include "engine/colour/spectrum.h"
 #include "modules/diffraction/rigorous/relief.h"
 
 namespace rowland::inspector {

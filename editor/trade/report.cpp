@@ -123,7 +123,8 @@ nlohmann::ordered_json panels(const SweepResults& results, const SweepInputs& in
         list.push_back({{"material", results.materials[material]},
                         {"probe", results.probes[probe]},
                         {"set", set},
-                        {"theory_error", theory == theories.end() ? nlohmann::ordered_json() : theory->error},
+                        {"theory_error",
+                         theory == theories.end() ? nlohmann::ordered_json() : nlohmann::ordered_json(theory->error)},
                         {"browser_material", materials[material]},
                         {"rows", panels[key]}});
     }

@@ -135,8 +135,9 @@ SolvedEfficiencies solve_efficiencies(const Relief& relief, colour::Metal metal,
         const double wavelength_nm = EfficiencyGrid::wavelength_at(row);
         const auto below = static_cast<std::size_t>(row / rows_per_margin);
         const int margin = std::max(margins[below].orders, margins[std::min(below + 1, margins.size() - 1)].orders);
-        const OrderEfficiencies solved = solve(relief, index_at(row), wavelength_nm, s_g,
-                                               first_truncation(relief, index_at(row), wavelength_nm) + margin);
+        const int truncation = first_truncation(relief, index_at(row), wavelength_nm) + margin;
+        const OrderEfficiencies solved =
+            solve(relief, index_at(row), wavelength_nm, s_g, std::min(truncation, kMaximumTruncation));
         {
             const std::lock_guard lock(mutex);
             add(solved, s_g, wavelength_nm / relief.pitch_nm, orders, symmetric, rows[static_cast<std::size_t>(row)]);

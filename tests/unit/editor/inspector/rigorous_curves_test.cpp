@@ -63,7 +63,8 @@ TEST(RigorousCurves, StopWhenAsked) {
 
 TEST(RigorousCurves, OfAReliefThatDoesNotConvergeAreRefused) {
     RigorousInputs deep = dvd();
-    deep.relief.shape = diffraction::SinusoidalProfile{.depth_nm = 2500.0};
+    deep.relief.pitch_nm = 20000.0;
+    deep.relief.shape = diffraction::SinusoidalProfile{.depth_nm = 40000.0};
     EXPECT_ANY_THROW(rigorous_curves(deep, {}, [](const auto&) {}));
 }
 

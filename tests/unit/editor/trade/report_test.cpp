@@ -52,7 +52,9 @@ TEST(Report, MarksTheFronts) {
 }
 
 TEST(Report, SaysWhatTheTheoryIsOffWhereItIsKnown) {
-    const auto data = report_data(results(), {}, {}, {}, {.theories = {{0, 0, "sphere", 0.4}, {0, 0, "picture", 0.3}}});
+    const auto data =
+        report_data(results(), {}, {}, {},
+                    {.date = "", .command = "", .theories = {{0, 0, "sphere", 0.4}, {0, 0, "picture", 0.3}}});
     EXPECT_EQ(data["panels"][0]["theory_error"], 0.3);
     EXPECT_TRUE(report_data(results(), {}, {}, {}, {})["panels"][0]["theory_error"].is_null());
 }

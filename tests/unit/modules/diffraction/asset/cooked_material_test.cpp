@@ -269,9 +269,10 @@ TEST_F(MaterialOfFiles, ARefusedOneIsNamedAndAMissingOneIsStillADependency) {
     EXPECT_THAT(without.dependencies(), ::testing::Contains(folder_.path() / "t.csv"));
 }
 
-/// The promise about cooked files (content/README.md): version_8.material was written when version 8 was new.
+/// The promise about cooked files (content/README.md): version_9.material was written when version 9 was new.
 constexpr const char* kSource = R"({
-  "grating": { "pitch_nm": 1200, "profile": { "type": "lamellar", "duty": 0.4, "depth_nm": 120 }, "orders": [-1, 1] },
+  "grating": { "pitch_nm": 1200, "profile": { "type": "lamellar", "duty": 0.4, "depth_nm": 120 }, "theory": "scalar",
+    "orders": [-1, 1] },
   "metal": "Al",
   "quality": { "representation": "arc", "bands": 2, "rank": 3, "view_resolution": 8 }
 })";

@@ -18,7 +18,9 @@ Grating row_grating(const std::string& text, const std::filesystem::path& file) 
             json[member] = json["grating"][member];
             json["grating"].erase(member);
         }
-    return parse_material(json, file.string()).grating;
+    Grating grating = parse_material(json, file.string()).grating;
+    grating.theory = Theory::Scalar;  // which the oracles have
+    return grating;
 }
 
 }  // namespace
