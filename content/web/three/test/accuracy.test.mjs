@@ -19,6 +19,7 @@ const CD = {
     grating: { pitch_nm: 1600, profile: { type: "lamellar", duty: 0.35, depth_nm: 130 }, orders: [-2, -1, 1, 2] },
     metal: "Al",
 };
+const RIGOROUS = { ...CD, grating: { ...CD.grating, theory: "rigorous" } };
 const FOIL = {
     grating: { pitch_nm: 1100, profile: { type: "sinusoidal", depth_nm: 180 }, orders: [-1, 1], groove_lobe: { sigma: 0.4 } },
     cover: { ior: 1.5 },
@@ -85,6 +86,11 @@ const CASES = [
         method: "arc/bands=5/rank=12/storage=fp32", tolerance: PITCHED },
     { name: "reference", grating: FOIL, representation: "reference", frames: frames(6).slice(0, 20), method: "reference" },
     { name: "direct, lobe and cover", grating: FOIL, representation: "direct", frames: frames(5), method: "direct" },
+    { name: "planar, rigorous theory", grating: RIGOROUS, representation: "planar", frames: frames(1, TILTED), method: "planar/map_resolution=256" },
+    { name: "arc, rigorous theory", grating: RIGOROUS, representation: "arc", frames: frames(2), method: "arc/bands=5/rank=12/storage=fp32" },
+    { name: "direct, rigorous theory", grating: RIGOROUS, representation: "direct", frames: frames(4), method: "direct" },
+    { name: "reference, rigorous theory", grating: RIGOROUS, representation: "reference", frames: frames(1, TILTED).slice(0, 20),
+        method: "reference", shownBy: "planar, rigorous theory" },
 ];
 
 const RGB = [[3.2409699, -1.5373832, -0.4986108], [-0.9692436, 1.8759675, 0.0415551], [0.0556301, -0.203977, 1.0569715]];
