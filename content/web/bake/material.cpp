@@ -83,7 +83,10 @@ ROWLAND_EXPORT(read_material)
 Material* read_material(const char* json, std::size_t size, const float* efficiencies, std::size_t count) {
     auto* material = new Material;
     const std::string name = "material";
-    material->source = diffraction::parse_gltf_extension(nlohmann::json::parse({json, size}), name, {});
+    const auto refuse_named = [](const std::string& file) -> diffraction::NamedText {
+        refuse_input(file, "", "a file beside the material", "a material that names no file");
+    };
+    material->source = diffraction::parse_gltf_extension(nlohmann::json::parse({json, size}), name, refuse_named, "");
     if (const auto refusal = diffraction::baked_refusal(material->grating()))
         refuse_input(name, refusal->key, refusal->found, refusal->expected, refusal->remedy);
     if (material->grating().transmission)

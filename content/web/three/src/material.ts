@@ -66,6 +66,7 @@ export class GratingMaterial extends MeshPhysicalMaterial {
     private grooveTexture?: Texture;
     private grooveMap?: GrooveMap;
     private readonly number = ++materials;
+    private bakes = 0;
     private tables?: MaterialTables;
     private lightShown = 0;
     private hasArcTable = false;
@@ -99,18 +100,19 @@ export class GratingMaterial extends MeshPhysicalMaterial {
         this.grating = grating;
         this.efficiencies = efficiencies;
         this.ready = rowland.material(this.number, grating, efficiencies).then((tables) => this.setKernel(tables));
-        this.solved = this.ready.then(() => this.solve(grating));
+        const bake = ++this.bakes;
+        this.solved = this.ready.then(() => this.solve(grating, () => bake === this.bakes));
         this.solved.catch((error: Error) => rowland.onError(error));
         if (this.leave) return;
         this.leave = rowland.follow(() => this.follow());
         this.addEventListener("dispose", this.leave);
     }
 
-    private async solve(grating: object): Promise<void> {
+    private async solve(grating: object, isCurrent: () => boolean): Promise<void> {
         const relief = this.tables!.facts.slice(FACT.relief);
-        if (relief[0] === 0) return; // there is nothing to solve
-        const efficiencies = await this.rowland!.solve(this.number, relief);
-        if (!efficiencies) return;
+        if (relief[0] === 0 || !isCurrent()) return; // there is nothing to solve
+        const efficiencies = await this.rowland!.solve(relief, isCurrent);
+        if (!efficiencies || !isCurrent()) return;
         this.efficiencies = efficiencies;
         this.setKernel(await this.rowland!.material(this.number, grating, efficiencies));
     }

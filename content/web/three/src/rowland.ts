@@ -135,13 +135,11 @@ export class Rowland {
         this.sources.set(id, source);
         return this.worker("maps").run("material", [id, source]);
     }
-    /** @internal Efficiencies for material(), one solve after the other; null once the material is another. */
-    solve(id: number, relief: Float32Array): Promise<Float32Array | null> {
-        const source = this.sources.get(id);
-        const isCurrent = () => this.sources.get(id) === source;
-        const solved = this.lastSolve.then(() => (isCurrent() ? this.worker("efficiencies").run<Float32Array>("solve", [relief]) : null));
+    /** @internal Efficiencies for material(), one solve after the other; null if they are not wanted any more when it is their turn. */
+    solve(relief: Float32Array, areWanted: () => boolean): Promise<Float32Array | null> {
+        const solved = this.lastSolve.then(() => (areWanted() ? this.worker("efficiencies").run<Float32Array>("solve", [relief]) : null));
         this.lastSolve = solved.catch(() => {});
-        return solved.then((efficiencies) => (isCurrent() ? efficiencies : null));
+        return solved;
     }
     /** @internal */
     keyLobes(): Promise<Float32Array> {
