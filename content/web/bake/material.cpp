@@ -20,8 +20,10 @@ namespace rowland::web {
 
 namespace {
 
-/// Levels of the smoothed kernel an octave: blur().
+/// Levels of the smoothed kernel an octave: blur(). Of a kernel of several views blur_for_lights() takes one less; more
+/// than four would be finer than its views, and a CD's texture has 15 MB with four.
 constexpr int kLevels = 8;
+constexpr int kLevelsOfViews = 5;
 
 /// Efficiencies as solve.cpp and material.ts give them: the first wavelength, the step between wavelengths, the number
 /// of views and of orders, the orders, then EfficiencyGrid::values.
@@ -148,7 +150,8 @@ ROWLAND_EXPORT(kernel_texture) Numbers* kernel_texture(const Material* material,
     using namespace diffraction;
     const double pitch_nm = material->grating().pitch_nm;
     const KernelTable kernel = in_space(material->kernel, material->has_pits() ? glm::dmat3(1.0) : xyz_to_working());
-    const BlurredKernel blurred = blur_for_lights(kernel, pitch_nm, most_columns, kLevels);
+    const BlurredKernel blurred =
+        blur_for_lights(kernel, pitch_nm, most_columns, kernel.views > 1 ? kLevelsOfViews : kLevels);
     const KernelUniforms uniforms = kernel_uniforms(kernel, blurred, pitch_nm);
     auto* numbers = new Numbers;
     append(static_cast<float>(blurred.columns), *numbers);
