@@ -17,8 +17,11 @@ export interface GratingParameters extends MeshPhysicalMaterialParameters {
     rowland?: Rowland;
     /** A material file's JSON, or the object of ROWLAND_materials_diffraction. */
     grating?: object;
-    /** Of a grating of rigorous theory; without them a worker solves Maxwell's equations, and scalar theory shows until then. */
-    efficiencies?: Efficiencies;
+    /**
+     * Of a grating of rigorous theory; without them a worker solves Maxwell's equations, and scalar theory shows until then.
+     * Numbers: as Tasks.solve() gives them.
+     */
+    efficiencies?: Efficiencies | Float32Array;
     /** Of the mesh: "tangent" if it has tangents, else "radial". */
     grooves?: Grooves;
     /** "planar" for flat meshes, else "arc". */
@@ -38,7 +41,7 @@ const SAME_PITCH = 0.01;
 // material_facts() of content/web/bake/material.cpp.
 const FACT = {
     lobe: 1, gaussian: 2, pits: 4, incoherent: 7, ior: 8, zeroOrder: 9, xyzToWorking: 18, mirror: 27, base: 30, colour: 33,
-    roughness: 36, hasBase: 37, rotation: 38, even: 39, relief: 40,
+    roughness: 36, hasBase: 37, rotation: 38, even: 39,
 };
 
 let materials = 0;
@@ -109,7 +112,7 @@ export class GratingMaterial extends MeshPhysicalMaterial {
     }
 
     private async solve(grating: object, isCurrent: () => boolean): Promise<void> {
-        const relief = this.tables!.facts.slice(FACT.relief);
+        const { relief } = this.tables!;
         if (relief[0] === 0 || !isCurrent()) return; // there is nothing to solve
         const efficiencies = await this.rowland!.solve(relief, isCurrent);
         if (!efficiencies || !isCurrent()) return;

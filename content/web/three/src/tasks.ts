@@ -19,6 +19,7 @@ export interface Source {
 
 export interface MaterialTables {
     readonly facts: Float32Array;
+    readonly relief: Float32Array; // for solve(); its first number is 0 where nothing is left to solve
     readonly kernel: Table; // three layers of `views` each
     readonly views: number;
     readonly kernelUniforms: Float32Array; // scale_bias, rows, reach, kernel_views of shaders/kernel.glsl
@@ -47,6 +48,7 @@ export type Detail = "coarse" | "full";
 export type Pitches = readonly [number, number];
 
 const MOST_TEXELS = 2048;
+const FACTS = 40; // those of the relief follow
 const SIZES = {
     coarse: { flat: 64, azimuths: 64, g: 64, h: 32, pitched: 32, step: 1.1 },
     full: { flat: 256, azimuths: 176, g: 64, h: 64, pitched: 128, step: 1.03 }, // step: of pitches
@@ -96,15 +98,17 @@ export class Tasks {
         if (this.baked.has(id)) bake.call("release_material", this.baked.get(id)!);
         this.baked.set(id, material);
         const texture = bake.numbers("kernel_texture", material, MOST_TEXELS);
+        const facts = bake.numbers("material_facts", material);
         return {
-            facts: bake.numbers("material_facts", material),
+            facts: facts.slice(0, FACTS),
+            relief: facts.slice(FACTS),
             kernel: table(texture[0], texture[1], 3 * texture[2], texture.subarray(14)),
             views: texture[2],
             kernelUniforms: texture.slice(3, 14),
         };
     }
 
-    /** The efficiencies of a source, by Maxwell's equations: seconds. `relief`: of a material's facts. */
+    /** The efficiencies of a source, by Maxwell's equations: seconds. */
     async solve(relief: Float32Array): Promise<Float32Array> {
         return (await this.module("solve")).numbers("solve", ...relief);
     }
