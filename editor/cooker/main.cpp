@@ -58,15 +58,10 @@ void check_usage(const Options& options) {
 }
 
 diffraction::CookedMaterial load(const std::filesystem::path& path) {
-    if (path.extension() != ".json") {
-        diffraction::CookedMaterial cooked = diffraction::load_cooked_material(path);
-        diffraction::require_portable(cooked.material.grating, path.string());
-        return cooked;
-    }
+    if (path.extension() != ".json") return diffraction::load_cooked_material(path);
     const diffraction::Material material = diffraction::load_material(path);
-    diffraction::require_portable(material.grating, path.string());
     diffraction::require_baked_grooves(material.grating, path.string());
-    return diffraction::bake_kernel(material);
+    return diffraction::bake_kernel(with_efficiencies(material, path.string()));
 }
 
 void add_light(const Options& options, const diffraction::CookedMaterial& cooked,

@@ -21,7 +21,7 @@ vec3 lamp_radiance(vec3 v, vec3 g, vec3 n, float footprint) {
     float s_g = dot(lamp_direction, g);
     float of_lamp = 0.5 * lamp_radius * sqrt(1.0 - s_g * s_g);     // standard deviation of s_g over the lamp
     float deviation = length(vec2(of_lamp, 0.57735 * footprint));  // with the pixel's
-    return 0.5 * max(dot(lamp_direction, n), 0.0) * kernel_value(s_g + dot(v, g), deviation, lamp_flux);
+    return 0.5 * max(dot(lamp_direction, n), 0.0) * kernel_value(s_g + dot(v, g), dot(v, g), deviation, lamp_flux);
 }
 
 void main() {

@@ -15,6 +15,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/type_ptr.hpp>
 #include <glm/trigonometric.hpp>
+#include <string>
 #include <vector>
 
 #include "context.h"
@@ -37,13 +38,15 @@ const glm::vec3 kNormal = glm::vec3(kDisc[1]);  // the disc lies in its own xz p
 void bind_kernel(GLuint program, const diffraction::CookedMaterial& material) {
     const double pitch_nm = material.material.grating.pitch_nm;
     const diffraction::BlurredKernel kernel = diffraction::blur_for_lights(material.kernel, pitch_nm);
+    const int views = kernel.views;  // more than 1: a volume, of so many slices for each layer
     GLuint texture = 0;
-    glCreateTextures(GL_TEXTURE_2D_ARRAY, 1, &texture);
-    glTextureStorage3D(texture, 1, GL_RGB32F, kernel.columns, kernel.levels, 3);
+    glCreateTextures(views > 1 ? GL_TEXTURE_3D : GL_TEXTURE_2D_ARRAY, 1, &texture);
+    glTextureStorage3D(texture, 1, GL_RGB32F, kernel.columns, kernel.levels, 3 * views);
     for (int colour = 0; colour < 3; ++colour) {  // a layer each for red, green and blue light
         std::vector<glm::vec3> xyz;
         for (const glm::mat3& value : kernel.values) xyz.push_back(value[colour]);
-        glTextureSubImage3D(texture, 0, 0, 0, colour, kernel.columns, kernel.levels, 1, GL_RGB, GL_FLOAT, xyz.data());
+        glTextureSubImage3D(texture, 0, 0, 0, colour * views, kernel.columns, kernel.levels, views, GL_RGB, GL_FLOAT,
+                            xyz.data());
     }
     glTextureParameteri(texture, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
     glTextureParameteri(texture, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
@@ -55,6 +58,8 @@ void bind_kernel(GLuint program, const diffraction::CookedMaterial& material) {
                         glm::value_ptr(uniforms.scale_bias));
     glProgramUniform2fv(program, glGetUniformLocation(program, "kernel_rows"), 1, glm::value_ptr(uniforms.rows));
     glProgramUniform2fv(program, glGetUniformLocation(program, "kernel_reach"), 1, glm::value_ptr(uniforms.reach));
+    glProgramUniform3fv(program, glGetUniformLocation(program, "kernel_views"), 1,
+                        glm::value_ptr(diffraction::kernel_views(kernel, 3)));
 }
 
 // Bakes what the probe needs, and binds it: again whenever the probe, or the plane's normal, changes.
@@ -156,7 +161,9 @@ void write_picture(const char* file) {
 int main(int argc, char** argv) try {
     if (argc != 4) return std::fprintf(stderr, "usage: bare_gl MATERIAL PROBE PICTURE\n"), 2;
     make_headless_context();
-    const std::string from = "#version 450 core\n";
+    const diffraction::CookedMaterial material = diffraction::load_cooked_material(argv[1]);
+    const std::string from =
+        std::string("#version 450 core\n") + (material.kernel.views > 1 ? "#define KERNEL_VIEWS\n" : "");
     const std::string rowland = ROWLAND_SHADERS "/";
     const std::string module = rowland + "modules/diffraction/";
     const GLuint program =
@@ -165,7 +172,6 @@ int main(int argc, char** argv) try {
                       read_text(module + "representations/planar/planar_map.glsl"),
                       read_text(module + "shaders/kernel.glsl"), read_text(EXAMPLE_SHADERS "/disc.frag.glsl")});
 
-    const diffraction::CookedMaterial material = diffraction::load_cooked_material(argv[1]);
     bind_kernel(program, material);
     bind_map(program, material, argv[2]);
     set_scene(program);

@@ -1,7 +1,13 @@
 #include "content/web/bake/material.h"
 
+#include <fmt/format.h>
+
 #include <glm/matrix.hpp>
+#include <memory>
+#include <span>
 #include <string>
+#include <variant>
+#include <vector>
 
 #include "content/web/bake/exports.h"
 #include "engine/colour/colour_space.h"
@@ -14,8 +20,58 @@ namespace rowland::web {
 
 namespace {
 
-/// Levels of the smoothed kernel an octave: blur().
+/// Levels of the smoothed kernel an octave: blur(). Of a kernel of several views blur_for_lights() takes one less; more
+/// than four would be finer than its views, and a CD's texture has 15 MB with four.
 constexpr int kLevels = 8;
+constexpr int kLevelsOfViews = 5;
+
+/// Efficiencies as solve.cpp and material.ts give them: the first wavelength, the step between wavelengths, the number
+/// of views and of orders, the orders, then EfficiencyGrid::values.
+std::shared_ptr<const diffraction::EfficiencyGrid> efficiency_grid(std::span<const float> numbers, double pitch_nm) {
+    using diffraction::EfficiencyGrid;
+    constexpr std::size_t kHeader = 4;
+    const auto refuse = [](const std::string& found, const std::string& expected) {
+        refuse_input("efficiencies", "", found, expected, "take all of material.efficiencies of an exported document");
+    };
+    if (numbers[0] != EfficiencyGrid::wavelength_at(0) || numbers[1] != EfficiencyGrid::kStep_nm ||
+        numbers[2] != EfficiencyGrid::kViews)
+        refuse(fmt::format("{} views of wavelengths from {} nm in steps of {} nm", numbers[2], numbers[0], numbers[1]),
+               fmt::format("{} views from {} nm in steps of {} nm", EfficiencyGrid::kViews,
+                           EfficiencyGrid::wavelength_at(0), EfficiencyGrid::kStep_nm));
+    const auto orders = numbers.subspan(kHeader, static_cast<std::size_t>(numbers[3]));
+    const auto values = numbers.subspan(kHeader + orders.size());
+    auto grid = std::make_shared<EfficiencyGrid>(
+        diffraction::empty_grid(pitch_nm, std::vector<int>(orders.begin(), orders.end())));
+    if (orders.empty() || values.size() != grid->values.size())
+        refuse(fmt::format("{} values of {} orders", values.size(), orders.size()),
+               fmt::format("{}, and an order", grid->values.size()));
+    for (std::size_t i = 1; i < orders.size(); ++i)
+        if (!(orders[i - 1] < orders[i]))
+            refuse(fmt::format("order {} before {}", orders[i - 1], orders[i]), "ascending orders");
+    for (const float value : values)
+        if (!(value >= 0.0F && value <= 1.0F + diffraction::kRowSumTolerance))
+            refuse(fmt::format("a value of {}", value), "0 to 1");
+    grid->values.assign(values.begin(), values.end());
+    return grid;
+}
+
+/// What solve() of solve.cpp takes: the profile's index, 0 where nothing is left to solve, pitch, depth, duty, index
+/// over the grooves, metal.
+void append_relief(const Material& material, Numbers& numbers) {
+    const diffraction::Grating& grating = material.grating();
+    glm::vec2 shape(0.0F);
+    std::visit(
+        [&](const auto& profile) {
+            if constexpr (requires { profile.depth_nm; }) shape.x = static_cast<float>(profile.depth_nm);
+            if constexpr (requires { profile.duty; }) shape.y = static_cast<float>(profile.duty);
+        },
+        grating.profile);
+    append(static_cast<float>(material.unsolved ? grating.profile.index() : 0), numbers);
+    append(static_cast<float>(grating.pitch_nm), numbers);
+    append(shape, numbers);
+    append(static_cast<float>(diffraction::groove_medium(grating.cover)), numbers);
+    append(static_cast<float>(grating.metal ? static_cast<int>(*grating.metal) : 0), numbers);
+}
 
 }  // namespace
 
@@ -24,19 +80,29 @@ const glm::dmat3& xyz_to_working() {
     return matrix;
 }
 
-/// From a material's JSON, as JSON.stringify() gives it.
-ROWLAND_EXPORT(read_material) Material* read_material(const char* json, std::size_t size) {
+/// From a material's JSON, as JSON.stringify() gives it. `efficiencies`: `count` numbers of efficiency_grid(), or none.
+ROWLAND_EXPORT(read_material)
+Material* read_material(const char* json, std::size_t size, const float* efficiencies, std::size_t count) {
     auto* material = new Material;
     const std::string name = "material";
-    material->source = diffraction::parse_gltf_extension(nlohmann::json::parse({json, size}), name, {});
+    const auto refuse_named = [](const std::string& file) -> diffraction::NamedText {
+        refuse_input(file, "", "a file beside the material", "a material that names no file");
+    };
+    material->source = diffraction::parse_gltf_extension(nlohmann::json::parse({json, size}), name, refuse_named, "");
     if (const auto refusal = diffraction::baked_refusal(material->grating()))
         refuse_input(name, refusal->key, refusal->found, refusal->expected, refusal->remedy);
     if (material->grating().transmission)
         refuse_input(name, "/transmission", "a sheet that transmits", "a reflecting grating", "leave it out");
-    material->source.material.grating.theory = diffraction::Theory::Scalar;  // solving is not part of the package
-    const diffraction::ColourKernel kernel(material->grating(),
-                                           colour::LightSpectra(material->source.material.quality.illuminant));
-    material->kernel = tabulate(kernel);
+    diffraction::Grating& grating = material->source.material.grating;
+    if (count > 0 && grating.theory == diffraction::Theory::Scalar)
+        refuse_input(name, "/grating/theory", "efficiencies beside scalar theory", "\"theory\": \"rigorous\"",
+                     "add it, or leave the efficiencies out");
+    if (count > 0) grating.efficiencies = efficiency_grid({efficiencies, count}, grating.pitch_nm);
+    material->unsolved = !is_solved(grating);
+    if (material->unsolved) grating.theory = diffraction::Theory::Scalar;
+    const colour::LightSpectra spectra(material->source.material.quality.illuminant);
+    const diffraction::ColourKernel kernel(grating, spectra);
+    material->kernel = depends_on_direction(grating) ? kernel_table(grating, spectra) : tabulate(kernel);
     material->zero_order_xyz = kernel.zero_order_xyz();
     return material;
 }
@@ -74,22 +140,27 @@ ROWLAND_EXPORT(material_facts) Numbers* material_facts(const Material* material)
     append(static_cast<float>(material->source.has_base ? 1 : 0), *numbers);
     append(static_cast<float>(material->source.groove_rotation), *numbers);
     append(static_cast<float>(is_even(material->kernel) ? 1 : 0), *numbers);
+    append_relief(*material, *numbers);
     return numbers;
 }
 
-/// Columns, levels, KernelUniforms, then the texels of three layers, RGB: shaders/kernel.glsl.
+/// Columns, levels, views, KernelUniforms, kernel_views, then the texels of three layers of so many views, RGB:
+/// shaders/kernel.glsl.
 ROWLAND_EXPORT(kernel_texture) Numbers* kernel_texture(const Material* material, int most_columns) {
     using namespace diffraction;
     const double pitch_nm = material->grating().pitch_nm;
     const KernelTable kernel = in_space(material->kernel, material->has_pits() ? glm::dmat3(1.0) : xyz_to_working());
-    const BlurredKernel blurred = blur_for_lights(kernel, pitch_nm, most_columns, kLevels);
+    const BlurredKernel blurred =
+        blur_for_lights(kernel, pitch_nm, most_columns, kernel.views > 1 ? kLevelsOfViews : kLevels);
     const KernelUniforms uniforms = kernel_uniforms(kernel, blurred, pitch_nm);
     auto* numbers = new Numbers;
     append(static_cast<float>(blurred.columns), *numbers);
     append(static_cast<float>(blurred.levels), *numbers);
+    append(static_cast<float>(blurred.views), *numbers);
     append(uniforms.scale_bias, *numbers);
     append(uniforms.rows, *numbers);
     append(uniforms.reach, *numbers);
+    append(kernel_views(blurred, 3), *numbers);
     for (int column = 0; column < 3; ++column)
         for (const glm::mat3& value : blurred.values) append(value[column], *numbers);
     return numbers;

@@ -12,6 +12,7 @@ namespace rowland::web {
 /// A glTF extension's object, or a material file, with its kernel.
 struct Material {
     diffraction::GltfGrating source;
+    bool unsolved = false;            ///< of rigorous theory, without its efficiencies: baked by scalar theory
     diffraction::KernelTable kernel;  ///< XYZ
     glm::dmat3 zero_order_xyz{0.0};
 

@@ -1,5 +1,5 @@
 // Writes the static site: node build.mjs FOLDER PACKAGE, the package built.
-import { cpSync, mkdirSync, readFileSync } from "node:fs";
+import { cpSync, mkdirSync, readFileSync, writeFileSync } from "node:fs";
 import { createRequire } from "node:module";
 import { fileURLToPath, pathToFileURL } from "node:url";
 
@@ -14,13 +14,19 @@ const options = {
     nodePaths: [from + "/node_modules"], alias: { "@rowland/three": from + "/dist/index.js" },
 };
 
+/** A source of the page as a module here. */
+async function imported(entry, define) {
+    const { outputFiles } = buildSync({ ...options, entryPoints: [here + entry], define, write: false });
+    return import("data:text/javascript;base64," + Buffer.from(outputFiles[0].contents).toString("base64"));
+}
+
+const { Tasks } = await import(pathToFileURL(from + "/dist/tasks.js"));
+const tasks = new Tasks(async (name) => readFileSync(`${from}/dist/${name}.wasm`));
+
 /** So that nothing is fitted when the page opens. */
 async function builtInKeyLights() {
-    const { outputFiles } = buildSync({ ...options, entryPoints: [here + "lights.ts"], define: { BUILT_IN_KEY_LIGHTS: "{}" }, write: false });
-    const { builtInLight, LIGHT_NAMES } = await import("data:text/javascript;base64," + Buffer.from(outputFiles[0].contents).toString("base64"));
-    const { Tasks } = await import(pathToFileURL(from + "/dist/tasks.js"));
+    const { builtInLight, LIGHT_NAMES } = await imported("lights.ts", { BUILT_IN_KEY_LIGHTS: "{}" });
     const { texelsOf } = await import(pathToFileURL(from + "/dist/rowland.js"));
-    const tasks = new Tasks(async (name) => readFileSync(`${from}/dist/${name}.wasm`));
     const lights = {};
     for (const name of LIGHT_NAMES) {
         const { texels, width, height } = texelsOf(builtInLight(name));
@@ -32,9 +38,28 @@ async function builtInKeyLights() {
     }
     return JSON.stringify(lights);
 }
-buildSync({ ...options, entryPoints: [here + "page.ts"], define: { BUILT_IN_KEY_LIGHTS: await builtInKeyLights() }, outfile: out + "/page.js" });
+
+/** Writes efficiencies.bin; where in it those of each sample are. */
+async function builtInEfficiencies() {
+    const { EFFICIENCY_UNIT, SAMPLES } = await imported("samples.ts", { BUILT_IN_EFFICIENCIES: "{}" });
+    const samples = {};
+    const values = [];
+    for (const { name, material } of SAMPLES) {
+        const { relief } = await tasks.material(0, { json: JSON.stringify(material), efficiencies: new Float32Array(), version: 0 });
+        if (relief[0] === 0) continue; // scalar theory
+        const numbers = [...await tasks.solve(relief)];
+        const header = numbers.splice(0, 4 + numbers[3]);
+        samples[name] = { header, first: values.length, count: numbers.length };
+        values.push(...numbers.map((x) => Math.min(Math.round(x / EFFICIENCY_UNIT), 65535)));
+    }
+    writeFileSync(`${out}/efficiencies.bin`, Uint16Array.from(values));
+    return JSON.stringify(samples);
+}
+
+const builtIn = { BUILT_IN_KEY_LIGHTS: await builtInKeyLights(), BUILT_IN_EFFICIENCIES: await builtInEfficiencies() };
+buildSync({ ...options, entryPoints: [here + "page.ts"], define: builtIn, outfile: out + "/page.js" });
 buildSync({ ...options, entryPoints: [from + "/dist/worker.js"], outfile: out + "/worker.js" });
 for (const file of ["index.html", "page.css", "cabinet.glb"]) cpSync(here + file, `${out}/${file}`);
-for (const file of ["bake.wasm", "arc.wasm", "reference.wasm"]) cpSync(`${from}/dist/${file}`, `${out}/${file}`);
+for (const file of ["bake.wasm", "arc.wasm", "reference.wasm", "solve.wasm"]) cpSync(`${from}/dist/${file}`, `${out}/${file}`);
 for (const file of ["draco_decoder.wasm", "draco_wasm_wrapper.js"])
     cpSync(`${from}/node_modules/three/examples/jsm/libs/draco/gltf/${file}`, `${out}/draco/${file}`);

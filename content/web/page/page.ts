@@ -378,7 +378,7 @@ scene.background = new Color(0x101114);
 resize();
 mark("script");
 showBuiltIn(wanted.light).catch(report); // while the cabinet is fetched
-stage = wanted.scene === SAMPLES_SCENE ? samples(rowland, wanted) : await cabinet(rowland);
+stage = wanted.scene === SAMPLES_SCENE ? await samples(rowland, wanted) : await cabinet(rowland);
 loaded = true;
 mark("model");
 scene.add(stage.objects);

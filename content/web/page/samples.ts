@@ -14,6 +14,21 @@ export interface Slider {
     step: number;
 }
 
+/** Of the samples of rigorous theory, by build.mjs: what Tasks.solve() gives, its values rounded, in efficiencies.bin. */
+declare const BUILT_IN_EFFICIENCIES: Record<string, { header: number[]; first: number; count: number }>;
+export const EFFICIENCY_UNIT = 1 / 65535;
+
+/** So that nothing is solved when the page opens. */
+export async function builtInEfficiencies(): Promise<(name: string) => Float32Array | undefined> {
+    const values = new Uint16Array(await (await fetch("efficiencies.bin")).arrayBuffer());
+    return (name) => {
+        const solved = BUILT_IN_EFFICIENCIES[name];
+        if (!solved) return undefined;
+        const own = Array.from(values.subarray(solved.first, solved.first + solved.count), (x) => x * EFFICIENCY_UNIT);
+        return Float32Array.from([...solved.header, ...own]);
+    };
+}
+
 export interface Sample {
     name: string;
     material: object;

@@ -6,7 +6,7 @@ import { DRACOLoader } from "three/examples/jsm/loaders/DRACOLoader.js";
 import { GLTFLoader } from "three/examples/jsm/loaders/GLTFLoader.js";
 import { GratingExtension, GratingMaterial, type Rowland } from "@rowland/three";
 import type { Settings } from "./address.js";
-import { SAMPLES } from "./samples.js";
+import { builtInEfficiencies, SAMPLES } from "./samples.js";
 
 export type GratingMesh = Mesh<BufferGeometry, GratingMaterial>;
 
@@ -34,7 +34,8 @@ export interface Stage {
 
 export const materialsOf = (piece: Piece) => [...new Set(piece.meshes.map(({ material }) => material))];
 
-export function samples(rowland: Rowland, bent: Settings): Stage {
+export async function samples(rowland: Rowland, bent: Settings): Promise<Stage> {
+    const efficiencies = await builtInEfficiencies();
     const objects = new Group();
     const ground = new Mesh(new PlaneGeometry(0.6, 0.6).rotateX(-Math.PI / 2), new MeshStandardMaterial({ color: 0x222326, roughness: 0.9 }));
     ground.position.y = -0.004;
@@ -42,7 +43,8 @@ export function samples(rowland: Rowland, bent: Settings): Stage {
     const pieces = SAMPLES.map(({ geometry, position, name, material }) => {
         const own = name === (bent.sample ?? SAMPLES[0].name) ? bent : undefined;
         const grating = own?.material ?? material;
-        const mesh = new Mesh(geometry(), new GratingMaterial({ rowland, grating, representation: own?.representation }));
+        const solved = own?.material ? undefined : efficiencies(name);
+        const mesh = new Mesh(geometry(), new GratingMaterial({ rowland, grating, efficiencies: solved, representation: own?.representation }));
         mesh.position.set(...position);
         objects.add(mesh);
         return { name, handle: mesh, meshes: [mesh], given: material, grating };

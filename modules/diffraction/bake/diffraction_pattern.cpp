@@ -1,6 +1,7 @@
 #include "modules/diffraction/bake/diffraction_pattern.h"
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
+#include <Eigen/Jacobi>
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -60,6 +61,37 @@ void add_order(const Grating& grating, const colour::LightSpectra& spectra, int 
     }
 }
 
+struct Eigenpair {
+    double value = 0.0;
+    Eigen::VectorXd vector;
+};
+
+/// Of a symmetric matrix that is positive semidefinite, the largest first: Jacobi's method (Golub & Van Loan, Matrix
+/// Computations, 8.5). Eigen's solver would be a twentieth of the module that browsers load.
+std::vector<Eigenpair> eigenpairs(Eigen::MatrixXd matrix) {
+    constexpr int kMostSweeps = 30;
+    constexpr double kRounding = 1e-14;
+    Eigen::MatrixXd vectors = Eigen::MatrixXd::Identity(matrix.rows(), matrix.cols());
+    const double negligible = kRounding * matrix.diagonal().sum();
+    for (int sweep = 0, rotated = 1; sweep < kMostSweeps && rotated > 0; ++sweep) {
+        rotated = 0;
+        for (Eigen::Index p = 0; p + 1 < matrix.rows(); ++p)
+            for (Eigen::Index q = p + 1; q < matrix.rows(); ++q) {
+                if (std::abs(matrix(p, q)) <= negligible) continue;
+                Eigen::JacobiRotation<double> rotation;
+                rotation.makeJacobi(matrix, p, q);
+                matrix.applyOnTheLeft(p, q, rotation.adjoint());
+                matrix.applyOnTheRight(p, q, rotation);
+                vectors.applyOnTheRight(p, q, rotation);
+                ++rotated;
+            }
+    }
+    std::vector<Eigenpair> pairs;
+    for (Eigen::Index i = 0; i < matrix.rows(); ++i) pairs.push_back({matrix(i, i), vectors.col(i)});
+    std::sort(pairs.begin(), pairs.end(), [](const Eigenpair& a, const Eigenpair& b) { return a.value > b.value; });
+    return pairs;
+}
+
 /// The principal components of η over views: `efficiencies` has a row for each node, weighted by its light.
 DiffractionPattern::ViewTerms view_terms(const Eigen::MatrixXd& efficiencies, const std::vector<glm::dmat3>& observed) {
     Eigen::VectorXd light(efficiencies.rows());
@@ -68,19 +100,19 @@ DiffractionPattern::ViewTerms view_terms(const Eigen::MatrixXd& efficiencies, co
         light[i] = white.x + white.y + white.z;
     }
     const Eigen::MatrixXd weighted = light.asDiagonal() * efficiencies;
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> components(weighted.transpose() * weighted);
-    const Eigen::Index size = efficiencies.cols();
-    DiffractionPattern::ViewTerms terms;
-    double left = components.eigenvalues().sum();
+    const std::vector<Eigenpair> components = eigenpairs(weighted.transpose().lazyProduct(weighted));
+    double left = 0.0;
+    for (const Eigenpair& component : components) left += component.value;
     const double bearable = kTermError * kTermError * left;
+    DiffractionPattern::ViewTerms terms;
     for (terms.count = 0; terms.count < kMostTerms && left > bearable; ++terms.count)
-        left -= components.eigenvalues()[size - 1 - static_cast<Eigen::Index>(terms.count)];
-    const Eigen::MatrixXd views = components.eigenvectors().rightCols(static_cast<Eigen::Index>(terms.count));
-    const Eigen::MatrixXd nodes = efficiencies * views;
-    for (Eigen::Index i = 0; i < nodes.rows(); ++i)
-        for (Eigen::Index r = 0; r < nodes.cols(); ++r) terms.by_node.push_back(static_cast<float>(nodes(i, r)));
-    for (Eigen::Index r = 0; r < views.cols(); ++r)
-        for (Eigen::Index j = 0; j < size; ++j) terms.by_view.push_back(static_cast<float>(views(j, r)));
+        left -= components[terms.count].value;
+    const std::span<const Eigenpair> shown(components.data(), terms.count);
+    for (Eigen::Index i = 0; i < efficiencies.rows(); ++i)
+        for (const Eigenpair& component : shown)
+            terms.by_node.push_back(static_cast<float>(efficiencies.row(i).dot(component.vector)));
+    for (const Eigenpair& component : shown)
+        for (const double value : component.vector) terms.by_view.push_back(static_cast<float>(value));
     for (const glm::dmat3& node : observed) terms.observed.emplace_back(node);
     return terms;
 }

@@ -236,4 +236,9 @@ KernelUniforms kernel_uniforms(const KernelTable& kernel, const BlurredKernel& b
             .reach = 0.5 * glm::dvec2(farthest + nearest, farthest - nearest)};
 }
 
+glm::vec3 kernel_views(const BlurredKernel& blurred, std::size_t layers) {
+    const double views = blurred.views;
+    return glm::dvec3(1.0, 0.5 * (views - 1.0) / views, 0.5) / static_cast<double>(layers);
+}
+
 }  // namespace rowland::diffraction

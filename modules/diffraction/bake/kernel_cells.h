@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <glm/mat3x3.hpp>
 #include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 #include <span>
 #include <vector>
@@ -121,5 +122,7 @@ struct KernelUniforms {
     glm::vec2 reach{0.0F};       ///< k is 0 where |u| differs from x by more than y
 };
 KernelUniforms kernel_uniforms(const KernelTable& kernel, const BlurredKernel& blurred, double pitch_nm);
+/// `kernel_views` of the shader under KERNEL_VIEWS, for a texture of `layers` times the kernel's views.
+glm::vec3 kernel_views(const BlurredKernel& blurred, std::size_t layers);
 
 }  // namespace rowland::diffraction

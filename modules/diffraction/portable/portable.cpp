@@ -6,7 +6,6 @@
 
 #include "engine/colour/colour_space.h"
 #include "engine/core/check.h"
-#include "engine/core/error.h"
 #include "modules/diffraction/asset/material.h"
 #include "modules/diffraction/bake/arc_moments.h"
 #include "modules/diffraction/bake/kernel_cells.h"
@@ -68,9 +67,39 @@ nlohmann::json describe(const GrooveLobe& lobe) {
 /// The texture that blur_for_lights() makes; its values follow from the kernel.
 nlohmann::json smoothing(const KernelTable& kernel, double pitch_nm) {
     const BlurredKernel blurred = blur_for_lights(kernel, pitch_nm);
-    return {{"begin_nm", blurred.begin_nm},         {"end_nm", blurred.end_nm},
-            {"narrowest_nm", blurred.narrowest_nm}, {"levels_per_octave", kLevelsPerOctave},
-            {"columns", blurred.columns},           {"levels", blurred.levels}};
+    nlohmann::json json = {{"begin_nm", blurred.begin_nm},         {"end_nm", blurred.end_nm},
+                           {"narrowest_nm", blurred.narrowest_nm}, {"levels_per_octave", blurred.levels_per_octave},
+                           {"columns", blurred.columns},           {"levels", blurred.levels}};
+    if (blurred.views > 1)
+        for (int view = 0; view < blurred.views; ++view)
+            json["views"].push_back(2.0 * view / (blurred.views - 1) - 1.0);
+    return json;
+}
+
+nlohmann::json grid_views() {
+    nlohmann::json views = nlohmann::json::array();
+    for (int view = 0; view < EfficiencyGrid::kViews; ++view) views.push_back(EfficiencyGrid::view_at(view));
+    return views;
+}
+
+nlohmann::json describe(const KernelTable& kernel, std::vector<std::byte>& bytes) {
+    nlohmann::json json = {{"begin_nm", kernel.begin_nm}, {"end_nm", kernel.end_nm}, {"even", is_even(kernel)}};
+    std::vector<std::size_t> shape{kernel.entries(), 3, 3};
+    if (kernel.views > 1) {
+        json["views"] = grid_views();
+        shape.insert(shape.begin(), static_cast<std::size_t>(kernel.views));
+    }
+    json["antiderivative"] = append_array(rows_of(kernel.antiderivative), shape, bytes);
+    return json;
+}
+
+nlohmann::json describe(const EfficiencyGrid& grid, std::vector<std::byte>& bytes) {
+    const std::array<std::size_t, 3> shape{grid.orders.size(), EfficiencyGrid::kWavelengths, EfficiencyGrid::kViews};
+    return {{"orders", grid.orders},
+            {"begin_nm", EfficiencyGrid::wavelength_at(0)},
+            {"step_nm", EfficiencyGrid::kStep_nm},
+            {"views", grid_views()},
+            {"values", append_array(grid.values, shape, bytes)}};
 }
 
 }  // namespace
@@ -83,18 +112,10 @@ PortableDocument make_portable(const std::string& uri) {
             .bytes = {}};
 }
 
-void require_portable(const Grating& grating, const std::string& file) {
-    if (depends_on_direction(grating))
-        refuse_input(file, "/grating", "efficiencies that depend on the direction",
-                     "those of scalar theory or of one incidence", "use \"theory\": \"scalar\"");
-}
-
 void add_material(const CookedMaterial& cooked, PortableDocument& document) {
-    ROWLAND_CHECK(!depends_on_direction(cooked.material.grating), "require_portable()");
     const Material& material = cooked.material;
     const Grating& grating = material.grating;
     const LayerWeights weights = layer_weights(grating, material.quality.illuminant);
-    const std::array<std::size_t, 3> shape{cooked.kernel.antiderivative.size(), 3, 3};
     document.json["material"] = {
         {"pitch_nm", grating.pitch_nm},
         {"orders", grating.orders},
@@ -104,13 +125,12 @@ void add_material(const CookedMaterial& cooked, PortableDocument& document) {
         {"base", {{"color", to_json(glm::dvec3(material.base.colour))}, {"roughness", material.base.roughness}}},
         {"weights", {{"mirror_xyz", to_json(weights.mirror)}, {"base_xyz", to_json(weights.base)}}},
         {"zero_order_xyz", to_json(cooked.zero_order_xyz)},
-        {"kernel",
-         {{"begin_nm", cooked.kernel.begin_nm},
-          {"end_nm", cooked.kernel.end_nm},
-          {"even", is_even(cooked.kernel)},
-          {"antiderivative", append_array(rows_of(cooked.kernel.antiderivative), shape, document.bytes)}}},
+        {"kernel", describe(cooked.kernel, document.bytes)},
         {"smoothing", smoothing(cooked.kernel, grating.pitch_nm)},
     };
+    if (!depends_on_direction(grating)) return;
+    document.json["version"] = kViewDependentVersion;
+    document.json["material"]["efficiencies"] = describe(*grating.efficiencies, document.bytes);
 }
 
 void add_arc(const ArcTable& table, PortableDocument& document) {

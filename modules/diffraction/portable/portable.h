@@ -16,6 +16,7 @@ namespace rowland::diffraction {
 
 inline constexpr const char* kPortableFormat = "rowland-diffraction";
 inline constexpr int kPortableVersion = 1;
+inline constexpr int kViewDependentVersion = 2;  ///< of a document whose kernel depends on the view
 
 /// Numbers for programs in any language: JSON, and the bytes that its arrays lie in. FORMAT.md states both.
 struct PortableDocument {
@@ -26,10 +27,8 @@ struct PortableDocument {
 /// A document without contents, whose bytes will lie in the file `uri` beside it.
 PortableDocument make_portable(const std::string& uri);
 
-/// Throws Error (input) naming `file` for efficiencies that depend on the direction, which a document does not hold.
-void require_portable(const Grating& grating, const std::string& file);
-
-/// Adds "material": the kernel, the layers' weights and what shades a lobe and a cover. require_portable() must hold.
+/// Adds "material": the kernel, the layers' weights and what shades a lobe and a cover; of efficiencies that depend on
+/// the direction, those too, and the document's version is kViewDependentVersion.
 void add_material(const CookedMaterial& cooked, PortableDocument& document);
 
 /// Adds "arc": the table of the representation `arc`, with the matrix from SH to its light terms.

@@ -103,9 +103,7 @@ void GpuKernel::bind(const gpu::Program& program, std::span<const lighting::KeyL
     program.set("kernel_scale_bias", uniforms.scale_bias);
     program.set("kernel_rows", uniforms.rows);
     program.set("kernel_reach", uniforms.reach);
-    const auto layers = static_cast<float>(kFirstColourLayer + light_colours.size());
-    const auto views = static_cast<float>(blurred().kernel.views);
-    program.set("kernel_views", glm::vec3(1.0F, 0.5F * (views - 1.0F) / views, 0.5F) / layers);
+    program.set("kernel_views", kernel_views(blurred().kernel, kFirstColourLayer + light_colours.size()));
     program.set("zero_order", zero_order_);
     program.set("working_to_rec709", working_to_rec709_);
 }

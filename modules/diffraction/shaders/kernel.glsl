@@ -65,14 +65,13 @@ vec3 zero_order_value(float u, float deviation, vec3 rgb) {
 #endif
 }
 
-// Without KERNEL_VIEWS.
-vec3 kernel_value(float u, float deviation, vec3 rgb) {
+vec3 kernel_value(float u, float v_g, float deviation, vec3 rgb) {
     KernelScale scale = kernel_scale();
     float t = kernel_row(scale, 12.0 * deviation * deviation);
     vec3 value = vec3(0.0);
     // Most lights miss the orders: no look-up is needed for them.
     if (kernel_reached(u, 5.0 * max(deviation, scale.scale_bias.z))) {
-        for (int c = 0; c < 3; ++c) value += rgb[c] * kernel_texel(scale, u, 0.0, t, float(c));
+        for (int c = 0; c < 3; ++c) value += rgb[c] * kernel_texel(scale, u, v_g, t, float(c));
         value *= kernel_scale_bias.w;
     }
     return value + zero_order_value(u, deviation, rgb);
@@ -135,8 +134,8 @@ vec3 kernel_to_working(vec3 value) {
 }
 
 // d k(d u) for a pixel whose pitch d is `pitch_factor` times the material's.
-vec3 pitch_kernel_value(float u, float deviation, vec3 rgb, float pitch_factor) {
-    return pitch_factor * kernel_value(pitch_factor * u, pitch_factor * deviation, rgb);
+vec3 pitch_kernel_value(float u, float v_g, float deviation, vec3 rgb, float pitch_factor) {
+    return pitch_factor * kernel_value(pitch_factor * u, v_g, pitch_factor * deviation, rgb);
 }
 
 #ifdef SMALL_LIGHTS

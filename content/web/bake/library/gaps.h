@@ -2,7 +2,10 @@
 // What emscripten's C++ library (3.1.6) lacks of the standard one; included before every source of the bake.
 #include <stdlib.h>
 
+#include <algorithm>
 #include <charconv>
+#include <cmath>
+#include <functional>
 #include <string>
 
 namespace std {
@@ -22,5 +25,29 @@ inline from_chars_result from_chars(const char* begin, const char* end, double& 
     value = read;
     return {begin + (after - text.c_str()), errc()};
 }
+
+inline double lerp(float a, float b, double t) {
+    return lerp(double{a}, double{b}, t);
+}
+
+namespace ranges {
+
+template <typename Range, typename Predicate>
+bool all_of(const Range& range, Predicate holds) {
+    return std::all_of(range.begin(), range.end(), holds);
+}
+
+template <typename Range, typename Value>
+bool binary_search(const Range& range, const Value& value) {
+    return std::binary_search(range.begin(), range.end(), value);
+}
+
+/// By what `projection` gives, ascending.
+template <typename Range, typename Projection>
+void sort(Range& range, std::less<>, Projection projection) {
+    std::sort(range.begin(), range.end(), [&](const auto& a, const auto& b) { return projection(a) < projection(b); });
+}
+
+}  // namespace ranges
 
 }  // namespace std

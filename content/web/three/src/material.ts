@@ -6,7 +6,7 @@ import {
 import { flatNormal, groovesOf, pointFrame, worldFrames, worldNormal, type Grooves } from "./frames.js";
 import { FRAGMENT, VERTEX } from "./generated/shaders.js";
 import { grooveMap, rotationsOf, type GrooveMap } from "./groove_map.js";
-import type { Rowland } from "./rowland.js";
+import type { Efficiencies, Rowland } from "./rowland.js";
 import type { MaterialTables, Pitches, PlaneMap } from "./tasks.js";
 import { arrayTexture, planeTexture, storageTexture, volumeTexture } from "./textures.js";
 
@@ -17,6 +17,11 @@ export interface GratingParameters extends MeshPhysicalMaterialParameters {
     rowland?: Rowland;
     /** A material file's JSON, or the object of ROWLAND_materials_diffraction. */
     grating?: object;
+    /**
+     * Of a grating of rigorous theory; without them a worker solves Maxwell's equations, and scalar theory shows until then.
+     * Numbers: as Tasks.solve() gives them.
+     */
+    efficiencies?: Efficiencies | Float32Array;
     /** Of the mesh: "tangent" if it has tangents, else "radial". */
     grooves?: Grooves;
     /** "planar" for flat meshes, else "arc". */
@@ -50,17 +55,21 @@ export class GratingMaterial extends MeshPhysicalMaterial {
     readonly isGratingMaterial = true;
     /** When the kernel is there; rejects for a bad material. */
     ready: Promise<void> = Promise.resolve();
+    /** When the efficiencies of its theory are there: those of rigorous theory seconds after scalar theory's. */
+    solved: Promise<void> = Promise.resolve();
     /** When the light shown is that of the current probe and plane. */
     settled: Promise<void> = Promise.resolve();
 
     private rowland?: Rowland;
     /** What bake() was called with. */
     grating?: object;
+    private efficiencies?: Efficiencies | Float32Array; // given, or solved
     private grooves?: Grooves;
     private representation?: Representation;
     private grooveTexture?: Texture;
     private grooveMap?: GrooveMap;
     private readonly number = ++materials;
+    private bakes = 0;
     private tables?: MaterialTables;
     private lightShown = 0;
     private hasArcTable = false;
@@ -73,10 +82,10 @@ export class GratingMaterial extends MeshPhysicalMaterial {
     private readonly uniforms: Record<string, IUniform> = {};
     private readonly wanted = new Map<string, string | undefined>(); // defines, from when ROWLAND is one of them
 
-    constructor({ rowland, grating, grooves, representation, grooveTexture, ...physical }: GratingParameters = {}) {
+    constructor({ rowland, grating, efficiencies, grooves, representation, grooveTexture, ...physical }: GratingParameters = {}) {
         super({ color: 0x000000, roughness: 0.3, ...physical });
         Object.assign(this, { grooves, representation, grooveTexture });
-        if (rowland && grating) this.bake(rowland, grating);
+        if (rowland && grating) this.bake(rowland, grating, efficiencies);
     }
 
     override copy(source: this): this {
@@ -84,19 +93,31 @@ export class GratingMaterial extends MeshPhysicalMaterial {
         this.grooves = source.grooves;
         this.representation = source.representation;
         this.grooveTexture = source.grooveTexture;
-        if (source.rowland && source.grating) this.bake(source.rowland, source.grating);
+        if (source.rowland && source.grating) this.bake(source.rowland, source.grating, source.efficiencies);
         return this;
     }
 
     /** Another grating on the same mesh, as sliders ask for it. */
-    bake(rowland: Rowland, grating: object): void {
+    bake(rowland: Rowland, grating: object, efficiencies?: Efficiencies | Float32Array): void {
         this.rowland = rowland;
         this.grating = grating;
-        this.ready = rowland.material(this.number, grating).then((tables) => this.setKernel(tables));
-        this.ready.catch((error: Error) => rowland.onError(error));
+        this.efficiencies = efficiencies;
+        this.ready = rowland.material(this.number, grating, efficiencies).then((tables) => this.setKernel(tables));
+        const bake = ++this.bakes;
+        this.solved = this.ready.then(() => this.solve(grating, () => bake === this.bakes));
+        this.solved.catch((error: Error) => rowland.onError(error));
         if (this.leave) return;
         this.leave = rowland.follow(() => this.follow());
         this.addEventListener("dispose", this.leave);
+    }
+
+    private async solve(grating: object, isCurrent: () => boolean): Promise<void> {
+        const { relief } = this.tables!;
+        if (relief[0] === 0 || !isCurrent()) return; // there is nothing to solve
+        const efficiencies = await this.rowland!.solve(relief, isCurrent);
+        if (!efficiencies || !isCurrent()) return;
+        this.efficiencies = efficiencies;
+        this.setKernel(await this.rowland!.material(this.number, grating, efficiencies));
     }
 
     private set(name: string, value: unknown): void {
@@ -126,19 +147,20 @@ export class GratingMaterial extends MeshPhysicalMaterial {
     }
 
     private setKernel(tables: MaterialTables): void {
-        const { facts, kernel, kernelUniforms } = tables;
+        const { facts, kernel, views, kernelUniforms } = tables;
         const vector = (at: number) => new Vector3().fromArray(facts, at);
         const matrix = (at: number) => new Matrix3().fromArray(facts, at);
         this.tables = tables;
         this.lightShown = 0;
         this.hasArcTable = this.mapped = false;
         this.normalShown = this.frameShown = undefined;
-        this.set("kernel_table", arrayTexture(kernel));
+        this.set("kernel_table", views > 1 ? volumeTexture(kernel, {}) : arrayTexture(kernel));
         const scale = new Vector4().fromArray(kernelUniforms, 0);
         scale.w *= kernel.scale;
         this.set("kernel_scale_bias", scale);
         this.set("kernel_rows", new Vector2().fromArray(kernelUniforms, 4));
         this.set("kernel_reach", new Vector2().fromArray(kernelUniforms, 6));
+        this.set("kernel_views", new Vector3().fromArray(kernelUniforms, 8));
         this.set("lobe_gaussian", new Vector2().fromArray(facts, FACT.gaussian));
         this.set("pit_length_over_wavelength", vector(FACT.pits));
         this.set("incoherent", facts[FACT.incoherent]);
@@ -156,6 +178,7 @@ export class GratingMaterial extends MeshPhysicalMaterial {
         }
         this.flag("LOBE_GAUSSIAN", facts[FACT.lobe] === 1);
         this.flag("LOBE_PITS", facts[FACT.lobe] === 2);
+        this.flag("KERNEL_VIEWS", views > 1);
         this.flag("COVER", facts[FACT.ior] > 0);
         this.flag("ZERO_ORDER", facts.subarray(FACT.zeroOrder, FACT.zeroOrder + 9).some((x) => x !== 0));
         if (!this.uniforms.key_lobes) this.setLight(new Float32Array());
@@ -244,7 +267,9 @@ export class GratingMaterial extends MeshPhysicalMaterial {
         const turns = this.grooveMap && rotationsOf(this.grooveMap, this.grooveTexture!, geometry);
         const { normals, gratings } = worldFrames(geometry, object, this.grooves ?? groovesOf(geometry), (i) => turn + (turns?.[i] ?? 0));
         if (!this.hasArcTable) {
+            const { tables } = this;
             const arc = await rowland.arc(this.number, BANDS, pitches);
+            if (tables !== this.tables) return; // of the grating before
             this.hasArcTable = true;
             this.set("packed_table", arrayTexture(arc.weights, arc.mapping === 0));
             this.set("table_range", storageTexture(Float32Array.from({ length: 8 * arc.layers }, (_, i) => (i % 8 < 4 ? 1 : 0))));
@@ -335,7 +360,8 @@ export class GratingMaterial extends MeshPhysicalMaterial {
      * The ground truth under the probe, linear Rec.709: a sum over wavelengths along arcs of the probe's texels, without
      * tables. Nine numbers a point, as pointFrame() gives them. Takes milliseconds a point.
      */
-    reference(points: Float32Array): Promise<Float32Array> {
+    async reference(points: Float32Array): Promise<Float32Array> {
+        await this.solved;
         return this.rowland!.reference(this.number, points);
     }
 

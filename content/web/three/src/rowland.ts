@@ -1,6 +1,6 @@
 import { DataUtils, FloatType, HalfFloatType, type DataTexture, type Texture } from "three";
 import { TaskWorker } from "./task_worker.js";
-import type { ArcTables, Detail, MaterialTables, Pitches, PlaneMap } from "./tasks.js";
+import type { ArcTables, Detail, MaterialTables, Pitches, PlaneMap, Source } from "./tasks.js";
 
 /** RGB texels of a texture that three's HDR or EXR loader gives, row 0 at the top. */
 export function texelsOf(texture: Texture): { texels: Float32Array; width: number; height: number } {
@@ -20,13 +20,34 @@ export function texelsOf(texture: Texture): { texels: Float32Array; width: numbe
     return { texels, width, height };
 }
 
+/**
+ * Fractions of the light that orders take, of a grating of rigorous theory: `material.efficiencies` of a document of
+ * `rowland-cook export`, with `values` taken from its file of arrays.
+ */
+export interface Efficiencies {
+    readonly orders: readonly number[];
+    /** The first wavelength, and the step to the next. */
+    readonly begin_nm: number;
+    readonly step_nm: number;
+    /** The v_g of the nodes. */
+    readonly views: readonly number[];
+    /** [orders, wavelengths, views] */
+    readonly values: Float32Array;
+}
+
+/** As content/web/bake/material.cpp reads them. */
+const numbersOf = ({ orders, begin_nm, step_nm, views, values }: Efficiencies) =>
+    Float32Array.from([begin_nm, step_nm, views.length, orders.length, ...orders, ...values]);
+
 /** What has a worker of its own: what takes seconds holds up no maps. */
-type Work = "maps" | "keys" | "tables" | "truth";
+type Work = "maps" | "keys" | "tables" | "truth" | "efficiencies";
 
 /** The workers that bake materials and light. One Rowland for a page. */
 export class Rowland {
     private readonly workers = new Map<Work, TaskWorker>();
-    private readonly json = new Map<number, string>();
+    private readonly sources = new Map<number, Source>();
+    private versions = 0;
+    private lastSolve: Promise<unknown> = Promise.resolve();
     private rest?: { light: number; sh: Promise<Float32Array> }; // without the key lights
     private keys: Float32Array = new Float32Array();
     private referenceImage?: { light: number; sent: Promise<void> };
@@ -108,10 +129,17 @@ export class Rowland {
     }
 
     /** @internal */
-    material(id: number, material: object): Promise<MaterialTables> {
-        const json = JSON.stringify(material);
-        this.json.set(id, json);
-        return this.worker("maps").run("material", [id, json]);
+    material(id: number, material: object, efficiencies?: Efficiencies | Float32Array): Promise<MaterialTables> {
+        const numbers = efficiencies instanceof Float32Array ? efficiencies : efficiencies ? numbersOf(efficiencies) : new Float32Array();
+        const source = { json: JSON.stringify(material), efficiencies: numbers, version: ++this.versions };
+        this.sources.set(id, source);
+        return this.worker("maps").run("material", [id, source]);
+    }
+    /** @internal Efficiencies for material(), one solve after the other; null if they are not wanted any more when it is their turn. */
+    solve(relief: Float32Array, areWanted: () => boolean): Promise<Float32Array | null> {
+        const solved = this.lastSolve.then(() => (areWanted() ? this.worker("efficiencies").run<Float32Array>("solve", [relief]) : null));
+        this.lastSolve = solved.catch(() => {});
+        return solved;
     }
     /** @internal */
     keyLobes(): Promise<Float32Array> {
@@ -124,13 +152,13 @@ export class Rowland {
 
     /** @internal */
     arc(id: number, bands: number, pitches: Pitches | null): Promise<ArcTables> {
-        return this.worker("tables").run("arc", [id, this.json.get(id), bands, pitches]);
+        return this.worker("tables").run("arc", [id, this.sources.get(id), bands, pitches]);
     }
     /** @internal */
     async products(id: number, bands: number, pitches: Pitches | null, normals: Float32Array, gratings: Float32Array): Promise<Float32Array> {
         if (this.rest?.light !== this.lightVersion) this.rest = { light: this.lightVersion, sh: this.restSh(bands) };
         const sh = await this.rest.sh;
-        return this.worker("tables").run("products", [id, this.json.get(id), bands, pitches, sh, normals, gratings], [normals, gratings]);
+        return this.worker("tables").run("products", [id, this.sources.get(id), bands, pitches, sh, normals, gratings], [normals, gratings]);
     }
 
     private async restSh(bands: number): Promise<Float32Array> {
@@ -144,7 +172,7 @@ export class Rowland {
         if (this.referenceImage?.light !== this.lightVersion)
             this.referenceImage = { light: this.lightVersion, sent: this.sendImage() };
         await this.referenceImage.sent;
-        return this.worker("truth").run("reference", [this.json.get(id), points], [points]);
+        return this.worker("truth").run("reference", [this.sources.get(id), points], [points]);
     }
 
     private async sendImage(): Promise<void> {

@@ -10,10 +10,19 @@ export interface Table extends Halves {
     readonly depth: number;
 }
 
+/** What a material is baked from. */
+export interface Source {
+    readonly json: string;
+    readonly efficiencies: Float32Array; // as efficiency_grid() of content/web/bake/material.cpp takes them, or empty
+    readonly version: number; // another for each source
+}
+
 export interface MaterialTables {
     readonly facts: Float32Array;
-    readonly kernel: Table;
-    readonly kernelUniforms: Float32Array; // scale_bias, rows, reach of shaders/kernel.glsl
+    readonly relief: Float32Array; // for solve(); its first number is 0 where nothing is left to solve
+    readonly kernel: Table; // three layers of `views` each
+    readonly views: number;
+    readonly kernelUniforms: Float32Array; // scale_bias, rows, reach, kernel_views of shaders/kernel.glsl
 }
 
 export interface PlaneMap {
@@ -39,6 +48,7 @@ export type Detail = "coarse" | "full";
 export type Pitches = readonly [number, number];
 
 const MOST_TEXELS = 2048;
+const FACTS = 40; // those of the relief follow
 const SIZES = {
     coarse: { flat: 64, azimuths: 64, g: 64, h: 32, pitched: 32, step: 1.1 },
     full: { flat: 256, azimuths: 176, g: 64, h: 64, pitched: 128, step: 1.03 }, // step: of pitches
@@ -54,7 +64,7 @@ function table(width: number, height: number, depth: number, rgb: Float32Array):
     return { width, height, depth, ...packRgb(rgb) };
 }
 
-type ModuleName = "bake" | "arc" | "reference";
+type ModuleName = "bake" | "arc" | "reference" | "solve";
 export type Fetch = (name: ModuleName) => Promise<BufferSource>;
 
 /** Materials and probes by number, in the modules' memory. One probe is kept. A worker has one of them. */
@@ -73,25 +83,34 @@ export class Tasks {
         return module;
     }
 
-    private static read(module: BakeModule, json: string): number {
+    private static read(module: BakeModule, { json, efficiencies }: Source): number {
         const text = new TextEncoder().encode(json);
-        const address = module.put(text);
-        const material = module.call("read_material", address, text.length);
-        module.call("give_back", address);
+        const inputs = [module.put(text), module.putFloats(efficiencies)];
+        const material = module.call("read_material", inputs[0], text.length, inputs[1], efficiencies.length);
+        for (const input of inputs) module.call("give_back", input);
         return material;
     }
 
-    async material(id: number, json: string): Promise<MaterialTables> {
+    /** Of rigorous theory without its efficiencies: by scalar theory. */
+    async material(id: number, source: Source): Promise<MaterialTables> {
         const bake = await this.module("bake");
-        const material = Tasks.read(bake, json);
+        const material = Tasks.read(bake, source);
         if (this.baked.has(id)) bake.call("release_material", this.baked.get(id)!);
         this.baked.set(id, material);
         const texture = bake.numbers("kernel_texture", material, MOST_TEXELS);
+        const facts = bake.numbers("material_facts", material);
         return {
-            facts: bake.numbers("material_facts", material),
-            kernel: table(texture[0], texture[1], 3, texture.subarray(10)),
-            kernelUniforms: texture.slice(2, 10),
+            facts: facts.slice(0, FACTS),
+            relief: facts.slice(FACTS),
+            kernel: table(texture[0], texture[1], 3 * texture[2], texture.subarray(14)),
+            views: texture[2],
+            kernelUniforms: texture.slice(3, 14),
         };
+    }
+
+    /** The efficiencies of a source, by Maxwell's equations: seconds. */
+    async solve(relief: Float32Array): Promise<Float32Array> {
+        return (await this.module("solve")).numbers("solve", ...relief);
     }
 
     /** `texels`: RGB, linear Rec.709, row 0 at the top. */
@@ -156,14 +175,14 @@ export class Tasks {
         };
     }
 
-    private async arcOf(id: number, json: string, bands: number, pitches: Pitches | null): Promise<[BakeModule, number]> {
+    private async arcOf(id: number, source: Source, bands: number, pitches: Pitches | null): Promise<[BakeModule, number]> {
         const module = await this.module("arc");
         const kept = this.arcs.get(id);
-        const of = json + pitches;
+        const of = `${source.version} ${pitches}`;
         if (kept?.of === of) return [module, kept.arc];
         if (kept) module.call("release_arc", kept.arc);
         this.arcs.delete(id);
-        const material = Tasks.read(module, json);
+        const material = Tasks.read(module, source);
         const [smallest, largest] = pitches ?? [1, 1];
         const arc = module.call("bake_arc", material, bands, RANK, smallest, largest, pitches ? nodesOf(pitches, TABLE_STEP) : 1);
         module.call("release_material", material);
@@ -171,8 +190,8 @@ export class Tasks {
         return [module, arc];
     }
 
-    async arc(id: number, json: string, bands: number, pitches: Pitches | null): Promise<ArcTables> {
-        const [module, arc] = await this.arcOf(id, json, bands, pitches);
+    async arc(id: number, source: Source, bands: number, pitches: Pitches | null): Promise<ArcTables> {
+        const [module, arc] = await this.arcOf(id, source, bands, pitches);
         const numbers = module.numbers("arc_weights", arc);
         const [mapping, width, height, layers] = numbers;
         const weights = numbers.subarray(6);
@@ -195,9 +214,9 @@ export class Tasks {
 
     /** 3 · layers vectors for each vertex. `sh`: restSh(). */
     async products(
-        id: number, json: string, bands: number, pitches: Pitches | null, sh: Float32Array, normals: Float32Array, gratings: Float32Array,
+        id: number, source: Source, bands: number, pitches: Pitches | null, sh: Float32Array, normals: Float32Array, gratings: Float32Array,
     ): Promise<Float32Array> {
-        const [module, arc] = await this.arcOf(id, json, bands, pitches);
+        const [module, arc] = await this.arcOf(id, source, bands, pitches);
         const inputs = [sh, normals, gratings].map((floats) => module.putFloats(floats));
         const products = module.numbers("arc_products", arc, ...inputs, normals.length / 3);
         for (const input of inputs) module.call("give_back", input);
@@ -212,9 +231,9 @@ export class Tasks {
     }
 
     /** Radiance of points by the sum over wavelengths, along arcs of the image's texels. */
-    async reference(json: string, points: Float32Array): Promise<Float32Array> {
+    async reference(source: Source, points: Float32Array): Promise<Float32Array> {
         const module = await this.module("reference");
-        const material = Tasks.read(module, json);
+        const material = Tasks.read(module, source);
         const address = module.putFloats(points);
         const radiance = module.numbers("reference_radiance", material, this.image, address, points.length / 9);
         module.call("give_back", address);

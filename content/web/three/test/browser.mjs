@@ -34,9 +34,10 @@ export function withDrivers(text, ...drivers) {
  * Starts a server; `task` is what the page fetches, `files` maps further paths to files. A page posts its result to
  * /result, and to /devtools what a hand would do, as commands of the DevTools protocol.
  */
-function serve(task, files, folder, onResult, onCommand) {
+function serve(task, files, folder, requests, onResult, onCommand) {
     const server = createServer(async (request, response) => {
         const path = new URL(request.url, "http://localhost").pathname;
+        requests.push(path);
         if (path === "/task") return response.end(JSON.stringify(task));
         if (path === "/result") {
             onResult(await bodyOf(request));
@@ -54,13 +55,13 @@ function serve(task, files, folder, onResult, onCommand) {
     return new Promise((resolve) => server.listen(0, "127.0.0.1", () => resolve(server)));
 }
 
-/** What the page posts to /result. */
-export async function resultOf(page, task, { files = {}, folder = packageFolder, seconds = 240, size = "800,600" } = {}) {
+/** What the page posts to /result. `requests` gets the paths that it asks for. */
+export async function resultOf(page, task, { files = {}, folder = packageFolder, seconds = 240, size = "800,600", requests = [] } = {}) {
     let server, browser, tools, timer;
     const profile = mkdtempSync(join(tmpdir(), "rowland-chromium-"));
     try {
         return await new Promise(async (resolve, reject) => {
-            server = await serve(task, files, folder, resolve, (command) => tools.command(command));
+            server = await serve(task, files, folder, requests, resolve, (command) => tools.command(command));
             timer = setTimeout(() => reject(new Error(`no result of ${page} in ${seconds} s`)), 1000 * seconds);
             browser = spawn(chromium(), ["--headless=new", "--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader",
                 "--enable-unsafe-swiftshader", "--remote-debugging-pipe", `--window-size=${size}`, `--user-data-dir=${profile}`,

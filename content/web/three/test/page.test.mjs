@@ -21,7 +21,9 @@ async function visit(query, address = "scene=samples", size = "480,417") {
         const { text, files } = withDrivers(readFileSync(join(site, "index.html"), "utf8"), "picture_driver.js", "page_driver.js");
         writeFileSync(page, text);
         files["/index.html"] = page;
-        const result = await resultOf(`index.html?${query}#${address}`, {}, { folder: site, files, seconds: 400, size });
+        const requests = [];
+        const result = await resultOf(`index.html?${query}#${address}`, {}, { folder: site, files, seconds: 400, size, requests });
+        assert.ok(!requests.includes("/solve.wasm"), "the page's gratings are solved when it is built");
         assert.deepEqual(result.errors, []);
         if (process.env.PICTURES)
             for (const [name, { url }] of Object.entries(result.pictures))

@@ -39,7 +39,6 @@ function geometry(frames, mirrored) {
 
 async function reference(rowland, { grating, frames }) {
     const material = new GratingMaterial({ rowland, grating });
-    await material.ready;
     const points = frames.flatMap(({ view, normal, grating }) => [...view, ...normal, ...grating]);
     const radiance = await material.reference(Float32Array.from(points));
     return frames.map((_, i) => [...radiance.subarray(3 * i, 3 * i + 3)]);
@@ -68,7 +67,7 @@ async function radiance(renderer, rowland, { grating, representation, frames, la
     mesh.frustumCulled = false;
     scene.add(mesh);
     const target = new THREE.WebGLRenderTarget(2 * frames.length, 2, { type: THREE.FloatType });
-    await material.ready;
+    await material.solved;
     const draw = () => {
         renderer.setRenderTarget(target);
         renderer.render(scene, camera);

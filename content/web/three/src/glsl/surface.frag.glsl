@@ -54,7 +54,7 @@ vec3 lamp_radiance(GrooveView view, PixelU u, vec3 s, vec3 irradiance) {
     float above = max(dot(s, view.axes[2]), 0.0);
     vec3 factor = 0.5 * above * cover_transmittance(above) *
                   groove_factor(dot(s, view.axes[1]) + view.direction.y);
-    return kernel_to_working(factor * pitch_kernel_value(u.mean, deviation_of(u), irradiance, view.pitch));
+    return kernel_to_working(factor * pitch_kernel_value(u.mean, view.direction.x, deviation_of(u), irradiance, view.pitch));
 }
 
 // A light of three. `s`: toward it, in the world; `irradiance`: on a surface that faces it.
