@@ -90,14 +90,14 @@ void mark_front(const char* cost, const char* mark, nlohmann::ordered_json& rows
     for (const std::size_t i : pareto_front(points)) rows[i][mark] = true;
 }
 
-/// The material for the page in a browser, without "quality"; null if it names another file.
+/// The material for the page in a browser, without "quality", with the theory that it has here; null if it names
+/// another file.
 nlohmann::json browser_material(const std::filesystem::path& path) {
     nlohmann::json json = diffraction::load_material_json(path);
     const diffraction::Material material = diffraction::parse_material(json, path.string());
-    if (std::holds_alternative<diffraction::EfficiencyTable>(material.grating.profile) ||
-        material.grating.theory == diffraction::Theory::Rigorous)
-        return nullptr;
+    if (std::holds_alternative<diffraction::EfficiencyTable>(material.grating.profile)) return nullptr;
     json.erase("quality");
+    if (material.grating.theory == diffraction::Theory::Rigorous) json["grating"]["theory"] = "rigorous";
     return json;
 }
 

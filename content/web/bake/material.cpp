@@ -88,7 +88,8 @@ Material* read_material(const char* json, std::size_t size, const float* efficie
     const auto refuse_named = [](const std::string& file) -> diffraction::NamedText {
         refuse_input(file, "", "a file beside the material", "a material that names no file");
     };
-    material->source = diffraction::parse_gltf_extension(nlohmann::json::parse({json, size}), name, refuse_named, "");
+    const nlohmann::json document = nlohmann::json::parse({json, size});
+    material->source = diffraction::parse_gltf_extension(document, name, refuse_named, "");
     if (const auto refusal = diffraction::baked_refusal(material->grating()))
         refuse_input(name, refusal->key, refusal->found, refusal->expected, refusal->remedy);
     if (material->grating().transmission)
@@ -98,8 +99,12 @@ Material* read_material(const char* json, std::size_t size, const float* efficie
         refuse_input(name, "/grating/theory", "efficiencies beside scalar theory", "\"theory\": \"rigorous\"",
                      "add it, or leave the efficiencies out");
     if (count > 0) grating.efficiencies = efficiency_grid({efficiencies, count}, grating.pitch_nm);
-    material->unsolved = !is_solved(grating);
-    if (material->unsolved) grating.theory = diffraction::Theory::Scalar;
+    if (!is_solved(grating) && !grating.films.empty())
+        refuse_input(name, "/grating/films", "films on the grooves", "their efficiencies beside them",
+                     "export the material and give its efficiencies");
+    // A worker solves where the material asks for it.
+    material->unsolved = !is_solved(grating) && document["grating"].contains("theory");
+    if (!is_solved(grating)) grating.theory = diffraction::Theory::Scalar;
     const colour::LightSpectra spectra(material->source.material.quality.illuminant);
     const diffraction::ColourKernel kernel(grating, spectra);
     material->kernel = depends_on_direction(grating) ? kernel_table(grating, spectra) : tabulate(kernel);

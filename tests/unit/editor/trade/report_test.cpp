@@ -111,6 +111,9 @@ TEST(Report, HoldsTheMaterialForThePageInABrowser) {
         material_of(R"({"grating": {"pitch_nm": 1600, "profile": {"type": "slit", "width_nm": 800}},
                               "quality": {"representation": "direct"}})"),
         nlohmann::json::parse(R"({"grating": {"pitch_nm": 1600, "profile": {"type": "slit", "width_nm": 800}}})"));
+    EXPECT_EQ(material_of(R"({"grating": {"pitch_nm": 900, "profile": {"type": "sinusoidal", "depth_nm": 150}},
+                             "metal": "Al"})")["grating"]["theory"],
+              "rigorous");
     write_file_atomic(folder.path() / "t.csv", std::string_view("wavelength_nm,R-1,R+1\n380,0.1,0.1\n780,0.1,0.1\n"));
     EXPECT_TRUE(
         material_of(
