@@ -40,7 +40,7 @@ struct DiffractionPattern {
     std::optional<Cover> cover;      ///< whose T(s_n) is not in P
 };
 
-inline constexpr double kTermError = 0.04;
+inline constexpr double kTermError = 0.02;
 inline constexpr std::size_t kMostTerms = 16;
 
 /// Distance in u between the nodes of an order: at most this, and of grooves at most that of 1 nm.
