@@ -152,7 +152,8 @@ void choose_theory(JsonReader& json, Material& material) {
     const auto refused = rigorous_refusal(grating);
     if (grating.theory == Theory::Rigorous && refused)
         json.fail(refused->key.substr(1), refused->found, refused->expected, refused->remedy);
-    const bool takes_it = !material.quality.pinned || info(*material.quality.pinned).lobes != Lobes::Mirroring;
+    const auto& pinned = material.quality.pinned;
+    const bool takes_it = !pinned || !std::holds_alternative<StreakSurfaceSettings>(*pinned);
     if (!named && !refused && takes_it) grating.theory = Theory::Rigorous;
     if (!grating.films.empty() && grating.theory == Theory::Scalar)
         json.fail("grating/films", "films without rigorous theory", "lamellar, sinusoidal or blazed grooves of a metal",

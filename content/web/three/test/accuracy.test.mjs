@@ -19,6 +19,8 @@ const CD = {
     grating: { pitch_nm: 1600, profile: { type: "lamellar", duty: 0.35, depth_nm: 130 }, orders: [-2, -1, 1, 2] },
     metal: "Al",
 };
+/** With the theory that the package takes without one. */
+const withTheory = (material) => ({ ...material, grating: { theory: "scalar", ...material.grating } });
 const RIGOROUS = { ...CD, grating: { ...CD.grating, theory: "rigorous" } };
 const FOIL = {
     grating: { pitch_nm: 1100, profile: { type: "sinusoidal", depth_nm: 180 }, orders: [-1, 1], groove_lobe: { sigma: 0.4 } },
@@ -112,7 +114,7 @@ const RGB = [[3.2409699, -1.5373832, -0.4986108], [-0.9692436, 1.8759675, 0.0415
 
 /** A lamp without extent, by the kernel of a document: portable/FORMAT.md. */
 function lampRadiance(folder, { grating, frames, lamp: { direction, flux } }) {
-    writeFileSync(join(folder, "lamp.json"), JSON.stringify(grating));
+    writeFileSync(join(folder, "lamp.json"), JSON.stringify(withTheory(grating)));
     execFileSync(join(dirname(trade), "rowland-cook"), ["export", "lamp.json", "-o", "document.json"], { cwd: folder });
     const { pitch_nm, kernel } = JSON.parse(readFileSync(join(folder, "document.json"))).material;
     const { offset, shape: [, entries] } = kernel.antiderivative;
@@ -164,7 +166,7 @@ function evaluate(folder, probe, one) {
     }
     const material = join(folder, "material.json");
     const table = join(folder, "frames.csv");
-    writeFileSync(material, JSON.stringify(grating));
+    writeFileSync(material, JSON.stringify(withTheory(grating)));
     writeFileSync(table, "vx,vy,vz,nx,ny,nz,gx,gy,gz\n" +
         frames.map(({ view, normal, grating }) => [...view, ...normal, ...grating].join(",")).join("\n") + "\n");
     const keys = method === "reference" ? "" : `/key_lights=${KEY_LIGHTS}`;

@@ -107,7 +107,8 @@ test("what rigorous theory cannot have is refused", { skip }, async () => {
     const slit = { grating: { pitch_nm: 1600, profile: { type: "slit", width_nm: 800 }, theory: "rigorous" }, metal: "Al" };
     await refused(slit, undefined, /theory: "rigorous" with a profile without a relief; expected lamellar/);
     await refused({ ...RIGOROUS, metal: undefined }, undefined, /"rigorous" without a metal/);
-    await refused(SCALAR, efficiencies, /theory: efficiencies beside scalar theory; expected "theory": "rigorous"/);
+    const scalar = { ...SCALAR, grating: { ...SCALAR.grating, theory: "scalar" } };
+    await refused(scalar, efficiencies, /theory: efficiencies beside scalar theory; expected "theory": "rigorous"/);
     await refused(RIGOROUS, { ...efficiencies, step_nm: 5 }, /efficiencies: 65 views of wavelengths from 380 nm in steps of 5 nm; expected/);
     await refused(RIGOROUS, { ...efficiencies, orders: [1, 0] }, /ascending/);
     await refused(RIGOROUS, { ...efficiencies, values: new Float32Array(7) }, /7 values of 2 orders; expected 5330/);
