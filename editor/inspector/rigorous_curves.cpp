@@ -25,9 +25,8 @@ struct Steps {
 
 OrderEfficiencies solve_at(const RigorousInputs& inputs, double wavelength_nm, double s_g, int margin) {
     const auto index = colour::metal_index(inputs.metal, wavelength_nm);
-    const int truncation = diffraction::first_truncation(inputs.relief, index, wavelength_nm) + margin;
     return diffraction::solve(inputs.relief, index, wavelength_nm, s_g,
-                              std::min(truncation, diffraction::kMaximumTruncation));
+                              diffraction::truncation_with(margin, inputs.relief, index, wavelength_nm));
 }
 
 /// Every solve of one wavelength gives light from s_g + kλ/d for all k.
@@ -43,16 +42,12 @@ std::vector<double> comb_starts(const RigorousInputs& inputs, double angle_deg) 
 }
 
 void add_incidences(const OrderEfficiencies& solved, double s_g, double period, std::vector<RigorousOrder>& curves) {
-    for (int i = 0; i < static_cast<int>(solved.v_g.size()); ++i) {
-        const int k = i + solved.first;
-        const double from = s_g - k * period;
-        if (std::abs(from) >= 1.0) continue;
+    for (const auto [k, from] : diffraction::comb_of(solved, s_g, period))
         for (RigorousOrder& curve : curves)
             if (std::abs(curve.order * period - from) < 1.0)
                 curve.over_incidence.push_back({std::asin(from) / kRadiansPerDegree,
                                                 solved.reflected(curve.order, Light::TE, k),
                                                 solved.reflected(curve.order, Light::TM, k)});
-    }
 }
 
 std::optional<std::vector<RigorousOrder>> curves_at(const RigorousInputs& inputs, const Steps& steps,

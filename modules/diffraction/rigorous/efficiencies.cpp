@@ -51,11 +51,7 @@ using Samples = std::vector<std::vector<EfficiencyGrid::Sample>>;
 /// Adds what one solve gives: for light from every direction of its comb, each order.
 void add(const OrderEfficiencies& solved, double s_g, double period, const std::vector<int>& orders, bool mirrored,
          Samples& samples) {
-    const auto size = static_cast<int>(solved.v_g.size());
-    for (int i = 0; i < size; ++i) {
-        const int k = i + solved.first;
-        const double from = s_g - k * period;  // = −v_g[i]
-        if (std::abs(from) >= 1.0) continue;
+    for (const auto [k, from] : comb_of(solved, s_g, period))
         for (std::size_t o = 0; o < orders.size(); ++o) {
             const double to = orders[o] * period - from;
             if (std::abs(to) >= 1.0) continue;
@@ -63,7 +59,6 @@ void add(const OrderEfficiencies& solved, double s_g, double period, const std::
             samples[o].push_back({from, efficiency});
             if (mirrored) samples[orders.size() - 1 - o].push_back({-from, efficiency});
         }
-    }
 }
 
 /// η_m(v_g) = η_−m(−v_g) to the last bit: maps of such a grating need one half alone. `orders` are symmetric.
@@ -135,9 +130,8 @@ SolvedEfficiencies solve_efficiencies(const Relief& relief, colour::Metal metal,
         const double wavelength_nm = EfficiencyGrid::wavelength_at(row);
         const auto below = static_cast<std::size_t>(row / rows_per_margin);
         const int margin = std::max(margins[below].orders, margins[std::min(below + 1, margins.size() - 1)].orders);
-        const int truncation = first_truncation(relief, index_at(row), wavelength_nm) + margin;
-        const OrderEfficiencies solved =
-            solve(relief, index_at(row), wavelength_nm, s_g, std::min(truncation, kMaximumTruncation));
+        const OrderEfficiencies solved = solve(relief, index_at(row), wavelength_nm, s_g,
+                                               truncation_with(margin, relief, index_at(row), wavelength_nm));
         {
             const std::lock_guard lock(mutex);
             add(solved, s_g, wavelength_nm / relief.pitch_nm, orders, symmetric, rows[static_cast<std::size_t>(row)]);

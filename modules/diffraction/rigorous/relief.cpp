@@ -49,7 +49,7 @@ void check_relief(const Relief& relief, const std::string& name) {
 }
 
 std::optional<Refusal> rigorous_refusal(const Grating& grating) {
-    const auto with = [](const std::string& found, const char* expected) {
+    const auto with = [](const std::string& found, const std::string& expected) {
         return Refusal{"/grating/theory", "\"rigorous\" with " + found, expected, "use \"scalar\""};
     };
     constexpr const char* kReliefs = "lamellar, sinusoidal or blazed grooves";
@@ -67,7 +67,8 @@ std::optional<Refusal> rigorous_refusal(const Grating& grating) {
     const double finest_nm = colour::kVisibleMin / 2.0;
     if (!(grating.pitch_nm > finest_nm && grating.pitch_nm <= kCoarsestSolved_nm))
         return with(fmt::format("a pitch of {} nm", grating.pitch_nm),
-                    "more than 190 nm, below which no order but 0 propagates, and up to 20000 nm");
+                    fmt::format("more than {} nm, below which no order but 0 propagates, and up to {} nm", finest_nm,
+                                kCoarsestSolved_nm));
     if (*depth > kDeepest * grating.pitch_nm)
         return with(fmt::format("a depth of {} nm", *depth), "grooves up to four pitches deep");
     if (grating.grooves < kManyGrooves)

@@ -128,6 +128,20 @@ int first_truncation(const Relief& relief, std::complex<double> substrate_index,
     return static_cast<int>(std::ceil(stretch * index * relief.pitch_nm / wavelength_nm)) + margin;
 }
 
+int truncation_with(int margin, const Relief& relief, std::complex<double> substrate_index, double wavelength_nm) {
+    return std::min(first_truncation(relief, substrate_index, wavelength_nm) + margin, kMaximumTruncation);
+}
+
+std::vector<CombLight> comb_of(const OrderEfficiencies& solved, double s_g, double period) {
+    std::vector<CombLight> comb;
+    for (int i = 0; i < static_cast<int>(solved.v_g.size()); ++i) {
+        const int k = i + solved.first;
+        const double from = s_g - k * period;  // = −v_g[i]
+        if (std::abs(from) < 1.0) comb.push_back({k, from});
+    }
+    return comb;
+}
+
 Converged solve_converged(const Relief& relief, std::complex<double> substrate_index, double wavelength_nm, double s_g,
                           double tolerance) {
     check_light(relief, substrate_index, wavelength_nm, s_g);

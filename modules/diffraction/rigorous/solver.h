@@ -46,6 +46,18 @@ OrderEfficiencies solve(const Relief& relief, std::complex<double> substrate_ind
 /// The smallest truncation that is worth trying: all that propagates, and what the relief's shape needs.
 int first_truncation(const Relief& relief, std::complex<double> substrate_index, double wavelength_nm);
 
+/// first_truncation() and `margin` orders, at most kMaximumTruncation.
+int truncation_with(int margin, const Relief& relief, std::complex<double> substrate_index, double wavelength_nm);
+
+/// Light that a solve gives: from `s_g`, |s_g| < 1, for the `k` of OrderEfficiencies::reflected().
+struct CombLight {
+    int k = 0;
+    double s_g = 0.0;
+};
+
+/// All light of a solve for `s_g` that comes from air; `period` is λ/d.
+std::vector<CombLight> comb_of(const OrderEfficiencies& solved, double s_g, double period);
+
 /// How far a sum of efficiencies may exceed 1: a lossless relief has 1.
 inline constexpr double kSumTolerance = 1e-6;
 

@@ -262,13 +262,13 @@ TEST(MaterialJson, MembersOutOfTheirDomainAreRefusedByFileAndPointer) {
     cases.push_back({solved(sine, R"(, "grooves": 20)", al), {"/grating/grooves", "rigorous"}});
     constexpr const char* deep = R"({"type": "sinusoidal", "depth_nm": 6401})";
     cases.push_back({solved(deep, "", al), {"/grating/theory", "6401"}});
-    for (const auto& [film, place] : {std::pair{R"({"ior": 0.9, "thickness_nm": 50})", "/grating/films/0/ior"},
-                                      {R"({"ior": 4.1, "thickness_nm": 50})", "/grating/films/0/ior"},
-                                      {R"({"ior": 1.5, "thickness_nm": 0})", "/grating/films/0/thickness_nm"},
-                                      {R"({"ior": 1.5, "thickness_nm": 1601})", "/grating/films/0/thickness_nm"},
-                                      {R"({"ior": 1.5})", "/grating/films/0/thickness_nm"},
-                                      {R"({"ior": 1.5, "thickness_nm": 9, "k": 1})", "/grating/films/0"}})
-        cases.push_back({with_profile(sine, std::string(R"(, "films": [)") + film + "]", al), {place}});
+    for (const auto& [film, pointer] : {std::pair{R"({"ior": 0.9, "thickness_nm": 50})", "/grating/films/0/ior"},
+                                        {R"({"ior": 4.1, "thickness_nm": 50})", "/grating/films/0/ior"},
+                                        {R"({"ior": 1.5, "thickness_nm": 0})", "/grating/films/0/thickness_nm"},
+                                        {R"({"ior": 1.5, "thickness_nm": 1601})", "/grating/films/0/thickness_nm"},
+                                        {R"({"ior": 1.5})", "/grating/films/0/thickness_nm"},
+                                        {R"({"ior": 1.5, "thickness_nm": 9, "k": 1})", "/grating/films/0"}})
+        cases.push_back({with_profile(sine, std::string(R"(, "films": [)") + film + "]", al), {pointer}});
     const std::string film = R"({"ior": 1.5, "thickness_nm": 9})";
     const std::string films = R"(, "films": [)" + film + "]";
     cases.push_back({with_profile(sine, R"(, "films": [])", al), {"/grating/films"}});
