@@ -60,30 +60,33 @@ render::Effects effects(const Options& options) {
     return effects;
 }
 
-diffraction::DiffractionSettings diffraction_settings(const Options& options, Pace pace) {
+diffraction::DiffractionSettings diffraction_settings(const Options& options, Pace pace,
+                                                      std::chrono::milliseconds map_wait) {
     diffraction::DiffractionSettings settings;
     if (options.light_window != "auto") settings.window = math::parse_window(options.light_window);
     settings.map_pace = pace == Pace::Still ? diffraction::MapPace::Whole : diffraction::MapPace::Incremental;
+    settings.map_wait = map_wait;
     return settings;
 }
 
 /// A picture that shows diffraction, with the effects that the options ask for.
 std::unique_ptr<view::Picture> open_picture(const Options& options, const post::OcioConfig& config, glm::ivec2 size,
-                                            Pace pace) {
+                                            Pace pace, std::chrono::milliseconds map_wait) {
     auto picture = std::make_unique<view::Picture>(config, std::string(), size);
     picture->post_settings() = post_settings(options);
     picture->renderer().set_effects(effects(options));
-    modules::register_material_types(picture->renderer(), {.diffraction = diffraction_settings(options, pace)});
+    modules::register_material_types(picture->renderer(),
+                                     {.diffraction = diffraction_settings(options, pace, map_wait)});
     return picture;
 }
 
 }  // namespace
 
 Session::Session(const Options& options, const post::OcioConfig& config, glm::ivec2 pixels, glm::ivec2 window,
-                 Pace pace)
+                 Pace pace, std::chrono::milliseconds map_wait)
     : options_(options),
       config_(config),
-      picture_(open_picture(options, config, pixels, pace)),
+      picture_(open_picture(options, config, pixels, pace, map_wait)),
       assets_(open_assets(options)),
       scene_(options, assets_, picture_->renderer(), picture_->xyz_to_working()),
       play_(scene_.world(), scene_.toys(), scene_.camera(), scene_.room(), window),

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -19,6 +20,7 @@
 #include "engine/core/log.h"
 #include "engine/post/ocio_config.h"
 #include "engine/view/picture.h"
+#include "modules/diffraction/runtime/map_cache.h"
 
 namespace rowland::demo {
 
@@ -37,8 +39,10 @@ inline Setting look_setting(Side side) {
 /// that it is made of.
 class Session {
  public:
-    /// `pixels`: of the picture; `window`: in the mouse's units. Throws Error (input).
-    Session(const Options& options, const post::OcioConfig& config, glm::ivec2 pixels, glm::ivec2 window, Pace pace);
+    /// `pixels`: of the picture; `window`: in the mouse's units; `map_wait`: see DiffractionSettings. Throws Error
+    /// (input).
+    Session(const Options& options, const post::OcioConfig& config, glm::ivec2 pixels, glm::ivec2 window, Pace pace,
+            std::chrono::milliseconds map_wait = diffraction::kMapWait);
 
     Play& play() { return play_; }
     DemoScene& scene() { return scene_; }

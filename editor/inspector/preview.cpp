@@ -202,7 +202,7 @@ void Preview::Side::show_surface(std::size_t material) {
 
 void Preview::Side::add_surface(const CookedSurface& surface, const std::vector<ecs::Entity>& parts) {
     if (surface.material) {
-        const auto uploaded = diffraction::make_gpu_material(*surface.material, picture.xyz_to_working());
+        const auto uploaded = diffraction::make_gpu_material(surface.material, picture.xyz_to_working());
         for (const ecs::Entity part : parts)
             diffraction::add_surface(world, part,
                                      {.material = uploaded,

@@ -7,6 +7,7 @@
 #include <glm/matrix.hpp>
 #include <glm/vec4.hpp>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "engine/colour/colour_space.h"
@@ -21,24 +22,25 @@ namespace rowland::diffraction {
 
 namespace {
 
-/// From XYZ to the colour space of the kernel's values: kernel.glsl.
-glm::dmat3 kernel_space(const CookedMaterial& cooked, const glm::dmat3& xyz_to_working) {
+glm::dmat3 xyz_to_kernel(const CookedMaterial& cooked, const glm::dmat3& xyz_to_working) {
     return std::holds_alternative<PitsLobe>(cooked.material.grating.lobe) ? glm::dmat3(1.0) : xyz_to_working;
 }
 
 }  // namespace
 
-GpuKernel::GpuKernel(const CookedMaterial& cooked, const glm::dmat3& xyz_to_working)
-    : kernel_(in_space(cooked.kernel, kernel_space(cooked, xyz_to_working))),
-      pitch_nm_(cooked.material.grating.pitch_nm),
-      lobe_(cooked.material.grating.lobe),
-      zero_order_(kernel_space(cooked, xyz_to_working) * cooked.zero_order_xyz),
+GpuKernel::GpuKernel(std::shared_ptr<const CookedMaterial> cooked, const glm::dmat3& xyz_to_working)
+    : cooked_(std::move(cooked)),
+      xyz_to_kernel_(xyz_to_kernel(*cooked_, xyz_to_working)),
+      pitch_nm_(cooked_->material.grating.pitch_nm),
+      lobe_(cooked_->material.grating.lobe),
+      zero_order_(xyz_to_kernel_ * cooked_->zero_order_xyz),
       working_to_rec709_(glm::inverse(xyz_to_working * colour::rec709_to_xyz())) {}
 
 const GpuKernel::Blurred& GpuKernel::blurred() const {
     if (!blurred_) {
-        blurred_.emplace(Blurred{.kernel = blur_for_lights(kernel_, pitch_nm_), .uniforms = {}});
-        blurred_->uniforms = kernel_uniforms(kernel_, blurred_->kernel, pitch_nm_);
+        const KernelTable kernel = in_space(cooked_->kernel, xyz_to_kernel_);
+        blurred_.emplace(Blurred{.kernel = blur_for_lights(kernel, pitch_nm_), .uniforms = {}});
+        blurred_->uniforms = kernel_uniforms(kernel, blurred_->kernel, pitch_nm_);
     }
     return *blurred_;
 }
@@ -70,7 +72,7 @@ GpuKernel::Smoothed GpuKernel::smooth(std::span<const glm::vec3> light_colours) 
 }
 
 void GpuKernel::add_defines(gpu::ProgramDesc& desc) const {
-    if (kernel_.views > 1) desc.defines.push_back({"KERNEL_VIEWS", "1"});
+    if (cooked_->kernel.views > 1) desc.defines.push_back({"KERNEL_VIEWS", "1"});
     if (has_zero_order()) desc.defines.push_back({"ZERO_ORDER", "1"});
     if (std::holds_alternative<GaussianLobe>(lobe_)) desc.defines.push_back({"LOBE_GAUSSIAN", "1"});
     if (std::holds_alternative<PitsLobe>(lobe_)) desc.defines.push_back({"LOBE_PITS", "1"});

@@ -3,6 +3,7 @@
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -37,7 +38,7 @@ class GpuLobes {
 class GpuKernel {
  public:
     /// `xyz_to_working`: of the engine's lights, which come in the working space.
-    GpuKernel(const CookedMaterial& cooked, const glm::dmat3& xyz_to_working);
+    GpuKernel(std::shared_ptr<const CookedMaterial> cooked, const glm::dmat3& xyz_to_working);
 
     bool has_zero_order() const { return zero_order_ != glm::mat3(0.0F); }
     void add_defines(gpu::ProgramDesc& desc) const;
@@ -59,7 +60,8 @@ class GpuKernel {
     Smoothed smooth(std::span<const glm::vec3> light_colours) const;
     void set_lobe(const gpu::Program& program) const;
 
-    KernelTable kernel_;
+    std::shared_ptr<const CookedMaterial> cooked_;
+    glm::dmat3 xyz_to_kernel_;  ///< the colour space of the kernel's values: kernel.glsl
     double pitch_nm_;
     GrooveLobe lobe_;
     glm::mat3 zero_order_;

@@ -83,10 +83,11 @@ struct Filling {
 
 }  // namespace
 
-GpuCircle::GpuCircle(const CookedMaterial& cooked, const CircleTables& tables, const glm::dmat3& xyz_to_working)
-    : GpuMaterial(cooked, xyz_to_working),
+GpuCircle::GpuCircle(std::shared_ptr<const CookedMaterial> cooked, const CircleTables& tables,
+                     const glm::dmat3& xyz_to_working)
+    : GpuMaterial(std::move(cooked), xyz_to_working),
       size_(tables.size),
-      charts_(chart_count(working_material().kernel)),
+      charts_(chart_count(this->cooked()->kernel)),
       fill_(std::make_shared<const FillMap>(Filling{working_material(), tables.size})) {}
 
 void GpuCircle::update(const SurfaceObject& object, SurfaceLight& light, SurfaceState& state) const {

@@ -45,28 +45,33 @@ void add_samplers(gpu::ProgramDesc& desc, int samplers) {
 
 }  // namespace
 
-GpuMaterial::GpuMaterial(const CookedMaterial& cooked, const glm::dmat3& xyz_to_working)
-    : cooked_(std::make_shared<const CookedMaterial>(cooked)),
-      base_{.base_colour = cooked.material.base.colour,
+GpuMaterial::GpuMaterial(std::shared_ptr<const CookedMaterial> cooked, const glm::dmat3& xyz_to_working)
+    : cooked_(std::move(cooked)),
+      base_{.base_colour = cooked_->material.base.colour,
             .metallic = 0.0F,
-            .roughness = cooked.material.base.roughness,
-            .passes_light = passes_light(cooked.material.grating)},
-      working_material_{.kernel = in_space(cooked.kernel, xyz_to_working),
-                        .pitch_nm = cooked.material.grating.pitch_nm,
-                        .zero_order_xyz = xyz_to_working * cooked.zero_order_xyz,
-                        .cover = cooked.material.grating.cover},
-      even_kernel_(is_even(cooked.kernel)),
-      key_lights_(cooked.material.quality.key_lights),
-      separate_lights_(key_lights_ > 0 || info(cooked.tables).is_map),
-      lights_at_vertices_(cooked.material.quality.lights_at_vertices && cooked.zero_order_xyz == glm::dmat3(0.0) &&
-                          !cooked.material.grating.lattice),
-      kernel_(cooked, xyz_to_working) {
-    if (cooked.reflected) reflected_ = make_gpu_material(*cooked.reflected, xyz_to_working);
-    const LayerWeights weights = layer_weights(cooked.material.grating, cooked.material.quality.illuminant);
-    if (cooked.material.grating.lattice) pattern_.emplace(cooked.material, xyz_to_working);
+            .roughness = cooked_->material.base.roughness,
+            .passes_light = passes_light(cooked_->material.grating)},
+      xyz_to_working_(xyz_to_working),
+      even_kernel_(is_even(cooked_->kernel)),
+      key_lights_(cooked_->material.quality.key_lights),
+      separate_lights_(key_lights_ > 0 || info(cooked_->tables).is_map),
+      lights_at_vertices_(cooked_->material.quality.lights_at_vertices && cooked_->zero_order_xyz == glm::dmat3(0.0) &&
+                          !cooked_->material.grating.lattice),
+      kernel_(cooked_, xyz_to_working) {
+    const Material& material = cooked_->material;
+    if (cooked_->reflected) reflected_ = make_gpu_material(cooked_->reflected, xyz_to_working);
+    const LayerWeights weights = layer_weights(material.grating, material.quality.illuminant);
+    if (material.grating.lattice) pattern_.emplace(material, xyz_to_working);
     mirror_weight_ = glm::vec3(xyz_to_working * weights.mirror);
     base_weight_ = glm::vec3(xyz_to_working * weights.base);
     reflectance_ = glm::vec3(xyz_to_working * weights.reflected);
+}
+
+MaterialKernel GpuMaterial::working_material() const {
+    return {.kernel = in_space(cooked_->kernel, xyz_to_working_),
+            .pitch_nm = cooked_->material.grating.pitch_nm,
+            .zero_order_xyz = xyz_to_working_ * cooked_->zero_order_xyz,
+            .cover = cooked_->material.grating.cover};
 }
 
 gpu::ProgramDesc GpuMaterial::program(const SurfaceState& state) const {
@@ -134,10 +139,11 @@ void GpuMaterial::require_vertex_light(const SurfaceObject& object, const Vertex
         limits_);
 }
 
-std::shared_ptr<const GpuMaterial> make_gpu_material(const CookedMaterial& cooked, const glm::dmat3& xyz_to_working) {
+std::shared_ptr<const GpuMaterial> make_gpu_material(std::shared_ptr<const CookedMaterial> cooked,
+                                                     const glm::dmat3& xyz_to_working) {
     std::shared_ptr<const GpuMaterial> material;
     const auto make_if = [&]<std::size_t I>(std::integral_constant<std::size_t, I>) {
-        if (const auto* tables = std::get_if<I>(&cooked.tables))
+        if (const auto* tables = std::get_if<I>(&cooked->tables))
             material = std::make_shared<const std::tuple_element_t<I, GpuClasses>>(cooked, *tables, xyz_to_working);
     };
     [&]<std::size_t... I>(std::index_sequence<I...>) {
@@ -161,11 +167,11 @@ void set_vertex_shader(gpu::ProgramDesc& desc, const char* file) {
 namespace {
 
 /// Like a map without key lights, a picture shows the whole probe and no other light.
-CookedMaterial as_a_map(const CookedMaterial& cooked) {
-    CookedMaterial map = cooked;
-    map.material.quality.key_lights = 0;
-    map.tables = CircleTables{};
-    map.reflected = nullptr;  // the image shows both sides of a sheet
+std::shared_ptr<const CookedMaterial> as_a_map(const CookedMaterial& cooked) {
+    auto map = std::make_shared<CookedMaterial>(cooked);
+    map->material.quality.key_lights = 0;
+    map->tables = CircleTables{};
+    map->reflected = nullptr;  // the image shows both sides of a sheet
     return map;
 }
 

@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "engine/gpu/buffer.h"
 #include "engine/gpu/context.h"
@@ -81,10 +82,10 @@ class GpuMaterial {
     void bind(const gpu::Program& program, const SurfaceLight& light, const SurfaceState& state) const;
 
  protected:
-    GpuMaterial(const CookedMaterial& cooked, const glm::dmat3& xyz_to_working);
+    GpuMaterial(std::shared_ptr<const CookedMaterial> cooked, const glm::dmat3& xyz_to_working);
 
     /// The kernel and order 0 of cooked() in the working space.
-    const MaterialKernel& working_material() const { return working_material_; }
+    MaterialKernel working_material() const;
 
     /// The light that is not shaded light by light.
     const lighting::ShLight& harmonics(SurfaceLight& light, int bands) const {
@@ -118,7 +119,7 @@ class GpuMaterial {
     glm::vec3 mirror_weight_{0.0F};
     glm::vec3 base_weight_{1.0F};
     glm::vec3 reflectance_{0.0F};
-    MaterialKernel working_material_;
+    glm::dmat3 xyz_to_working_;
     bool even_kernel_;      ///< k(−x) = k(x)
     int key_lights_;        ///< the most that are shaded light by light
     bool separate_lights_;  ///< directional lights are shaded light by light
@@ -128,7 +129,11 @@ class GpuMaterial {
 };
 
 /// `xyz_to_working` as the renderer's.
-std::shared_ptr<const GpuMaterial> make_gpu_material(const CookedMaterial& cooked, const glm::dmat3& xyz_to_working);
+std::shared_ptr<const GpuMaterial> make_gpu_material(std::shared_ptr<const CookedMaterial> cooked,
+                                                     const glm::dmat3& xyz_to_working);
+inline std::shared_ptr<const GpuMaterial> make_gpu_material(CookedMaterial cooked, const glm::dmat3& xyz_to_working) {
+    return make_gpu_material(std::make_shared<const CookedMaterial>(std::move(cooked)), xyz_to_working);
+}
 
 /// Names the shader file, below modules/diffraction/, that gives the light from the probe at the pixels, by so many
 /// samplers.

@@ -111,10 +111,11 @@ std::shared_ptr<const FillMap> planar_filling(const PlanarTables& tables, const 
 
 }  // namespace
 
-GpuPlanar::GpuPlanar(const CookedMaterial& cooked, const PlanarTables& tables, const glm::dmat3& xyz_to_working)
-    : GpuMaterial(cooked, xyz_to_working),
+GpuPlanar::GpuPlanar(std::shared_ptr<const CookedMaterial> cooked, const PlanarTables& tables,
+                     const glm::dmat3& xyz_to_working)
+    : GpuMaterial(std::move(cooked), xyz_to_working),
       stand_in_([material = this->cooked(), table = tables.stand_in, xyz_to_working] {
-          return std::make_unique<const GpuArc>(*material, *table, xyz_to_working);
+          return std::make_unique<const GpuArc>(material, *table, xyz_to_working);
       }),
       fill_(planar_filling(tables, working_material(), xyz_to_working)),
       lobe_map_(tables.lobe.has_value()),

@@ -35,7 +35,7 @@ class GpuTable {
 /// frame: spikes.glsl.
 class GpuSpikes final : public GpuMaterial {
  public:
-    GpuSpikes(const CookedMaterial& cooked, const SpikeTable& table, const glm::dmat3& xyz_to_working);
+    GpuSpikes(std::shared_ptr<const CookedMaterial> cooked, const SpikeTable& table, const glm::dmat3& xyz_to_working);
 
     void update(const SurfaceObject& object, SurfaceLight& light, SurfaceState& state) const override;
 
@@ -54,7 +54,7 @@ class GpuSpikes final : public GpuMaterial {
 /// rotated as the map says.
 class GpuArc final : public GpuMaterial {
  public:
-    GpuArc(const CookedMaterial& cooked, const ArcTable& table, const glm::dmat3& xyz_to_working);
+    GpuArc(std::shared_ptr<const CookedMaterial> cooked, const ArcTable& table, const glm::dmat3& xyz_to_working);
 
     void update(const SurfaceObject& object, SurfaceLight& light, SurfaceState& state) const override;
     void describe(const SurfaceState& state, gpu::ProgramDesc& desc) const override;
@@ -72,8 +72,8 @@ class GpuArc final : public GpuMaterial {
 /// Analytic lights and key lights alone.
 class GpuDirect final : public GpuMaterial {
  public:
-    GpuDirect(const CookedMaterial& cooked, const DirectTables&, const glm::dmat3& xyz_to_working)
-        : GpuMaterial(cooked, xyz_to_working) {}
+    GpuDirect(std::shared_ptr<const CookedMaterial> cooked, const DirectTables&, const glm::dmat3& xyz_to_working)
+        : GpuMaterial(std::move(cooked), xyz_to_working) {}
 
     void update(const SurfaceObject&, SurfaceLight&, SurfaceState&) const override {}
 
@@ -87,7 +87,8 @@ class GpuDirect final : public GpuMaterial {
 /// objects that are not flat, those without a probe's texels, and others until there is a map.
 class GpuPlanar final : public GpuMaterial {
  public:
-    GpuPlanar(const CookedMaterial& cooked, const PlanarTables& tables, const glm::dmat3& xyz_to_working);
+    GpuPlanar(std::shared_ptr<const CookedMaterial> cooked, const PlanarTables& tables,
+              const glm::dmat3& xyz_to_working);
 
     void update(const SurfaceObject& object, SurfaceLight& light, SurfaceState& state) const override;
 
@@ -108,7 +109,8 @@ class GpuPlanar final : public GpuMaterial {
 /// only analytic lights and key lights are shown.
 class GpuCircle final : public GpuMaterial {
  public:
-    GpuCircle(const CookedMaterial& cooked, const CircleTables& tables, const glm::dmat3& xyz_to_working);
+    GpuCircle(std::shared_ptr<const CookedMaterial> cooked, const CircleTables& tables,
+              const glm::dmat3& xyz_to_working);
 
     void update(const SurfaceObject& object, SurfaceLight& light, SurfaceState& state) const override;
 
@@ -125,7 +127,8 @@ class GpuCircle final : public GpuMaterial {
 /// streak.glsl. One map for all objects of a material; it follows the probe.
 class GpuStreak final : public GpuMaterial {
  public:
-    GpuStreak(const CookedMaterial& cooked, const StreakTables& tables, const glm::dmat3& xyz_to_working);
+    GpuStreak(std::shared_ptr<const CookedMaterial> cooked, const StreakTables& tables,
+              const glm::dmat3& xyz_to_working);
 
     void update(const SurfaceObject& object, SurfaceLight& light, SurfaceState& state) const override;
 

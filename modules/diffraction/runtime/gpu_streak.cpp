@@ -56,8 +56,9 @@ FilledMap fill(const StreakMapSize& full, const MapInput& input, MapDetail detai
 
 }  // namespace
 
-GpuStreak::GpuStreak(const CookedMaterial& cooked, const StreakTables& tables, const glm::dmat3& xyz_to_working)
-    : GpuMaterial(cooked, xyz_to_working),
+GpuStreak::GpuStreak(std::shared_ptr<const CookedMaterial> cooked, const StreakTables& tables,
+                     const glm::dmat3& xyz_to_working)
+    : GpuMaterial(std::move(cooked), xyz_to_working),
       segments_(segment_buffer(tables, xyz_to_working)),
       reach_(static_cast<float>(tables.streak.reach())),
       level_(static_cast<float>(std::log2(tables.streak.sigma / tables.map.length))),
@@ -67,7 +68,7 @@ GpuStreak::GpuStreak(const CookedMaterial& cooked, const StreakTables& tables, c
           [size = tables.map](const MapInput& input, MapDetail detail, const std::stop_token& stop) {
               return fill(size, input, detail, stop);
           })) {
-    if (tables.incoherent) incoherent_.emplace(cooked, *tables.incoherent, xyz_to_working);
+    if (tables.incoherent) incoherent_.emplace(this->cooked(), *tables.incoherent, xyz_to_working);
 }
 
 void GpuStreak::update(const SurfaceObject& object, SurfaceLight& light, SurfaceState& state) const {

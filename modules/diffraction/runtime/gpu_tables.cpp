@@ -105,8 +105,9 @@ gpu::Texture make_wavelengths() {
 
 }  // namespace
 
-GpuSpikes::GpuSpikes(const CookedMaterial& cooked, const SpikeTable& table, const glm::dmat3& xyz_to_working)
-    : GpuMaterial(cooked, xyz_to_working),
+GpuSpikes::GpuSpikes(std::shared_ptr<const CookedMaterial> cooked, const SpikeTable& table,
+                     const glm::dmat3& xyz_to_working)
+    : GpuMaterial(std::move(cooked), xyz_to_working),
       bands_(table.bands),
       spikes_(table.spikes),
       table_(table, table.grid),
@@ -148,8 +149,8 @@ ViewGrid weight_grid(const ArcTable& table) {
 
 }  // namespace
 
-GpuArc::GpuArc(const CookedMaterial& cooked, const ArcTable& table, const glm::dmat3& xyz_to_working)
-    : GpuMaterial(cooked, xyz_to_working),
+GpuArc::GpuArc(std::shared_ptr<const CookedMaterial> cooked, const ArcTable& table, const glm::dmat3& xyz_to_working)
+    : GpuMaterial(std::move(cooked), xyz_to_working),
       products_(table, xyz_to_working),
       weights_(table, weight_grid(table)),
       pitch_(table.pitch) {}

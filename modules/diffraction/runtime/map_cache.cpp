@@ -163,6 +163,8 @@ void MapCache::begin_frame() {
             for (GpuMap& part : map->parts) spare_.push_back(std::move(part).texture());
         return true;
     });
+    const bool rests = std::ranges::all_of(maps_, [](const auto& map) { return map->shown == MapDetail::Full; });
+    if (rests) spare_.clear();
     if (spare_.size() > kSpareTextures)
         spare_.erase(spare_.begin(), spare_.end() - static_cast<std::ptrdiff_t>(kSpareTextures));
     ++frame_;
