@@ -412,8 +412,8 @@ std::vector<Sheet> sheets(const Options& options, const DemoScene& scene) {
 
 post::GlareSettings glare_of(const Sheet& sheet, const DemoScene& scene, const glm::dmat3& xyz_to_working) {
     const diffraction::GltfGrating grating = grating_of(sheet, scene);
-    return {.pattern = std::make_shared<post::GlarePattern>(
-                diffraction::glare_pattern(grating.material.grating, xyz_to_working)),
+    const diffraction::Material solved = diffraction::with_efficiencies(grating.material, sheet.name);
+    return {.pattern = std::make_shared<post::GlarePattern>(diffraction::glare_pattern(solved.grating, xyz_to_working)),
             .angle = static_cast<float>(grating.groove_rotation)};
 }
 

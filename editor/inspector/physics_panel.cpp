@@ -315,7 +315,7 @@ void PhysicsPanel::update(const OpenDocument& opened) {
     if (document.has_grating() && document.material().grating.theory == diffraction::Theory::Rigorous) {
         const diffraction::Grating& grating = document.material().grating;
         inputs = {.relief = relief_of(grating, "the material"),
-                  .metal = *grating.metal,
+                  .substrate = substrate_of(grating),
                   .orders = {},
                   .wavelength_nm = light_.wavelength_nm,
                   .s_g = sine_of(light_.incidence_deg)};

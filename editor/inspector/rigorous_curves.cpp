@@ -24,7 +24,7 @@ struct Steps {
 };
 
 OrderEfficiencies solve_at(const RigorousInputs& inputs, double wavelength_nm, double s_g, int margin) {
-    const auto index = colour::metal_index(inputs.metal, wavelength_nm);
+    const auto index = diffraction::index_of(inputs.substrate, wavelength_nm);
     return diffraction::solve(inputs.relief, index, wavelength_nm, s_g,
                               diffraction::truncation_with(margin, inputs.relief, index, wavelength_nm));
 }
@@ -41,20 +41,28 @@ std::vector<double> comb_starts(const RigorousInputs& inputs, double angle_deg) 
     return starts;
 }
 
-void add_incidences(const OrderEfficiencies& solved, double s_g, double period, std::vector<RigorousOrder>& curves) {
+/// `at`: wavelength or angle.
+PolarisedPoint point_of(const OrderEfficiencies& solved, int order, const diffraction::Substrate& substrate, double at,
+                        int k = 0) {
+    return {at, leaving(solved, order, substrate, Light::TE, k), leaving(solved, order, substrate, Light::TM, k)};
+}
+
+void add_incidences(const OrderEfficiencies& solved, double s_g, double period, const diffraction::Substrate& substrate,
+                    std::vector<RigorousOrder>& curves) {
+    const int sign = diffraction::sign_of(substrate);
     for (const auto [k, from] : diffraction::comb_of(solved, s_g, period))
         for (RigorousOrder& curve : curves)
-            if (std::abs(curve.order * period - from) < 1.0)
-                curve.over_incidence.push_back({std::asin(from) / kRadiansPerDegree,
-                                                solved.reflected(curve.order, Light::TE, k),
-                                                solved.reflected(curve.order, Light::TM, k)});
+            if (std::abs(sign * curve.order * period - from) < 1.0)
+                curve.over_incidence.push_back(
+                    point_of(solved, sign * curve.order, substrate, sign * std::asin(from) / kRadiansPerDegree, k));
 }
 
 std::optional<std::vector<RigorousOrder>> curves_at(const RigorousInputs& inputs, const Steps& steps,
                                                     const std::stop_token& stop) {
-    std::vector<std::pair<double, double>> lights;  // wavelength and s_g
+    const int sign = diffraction::sign_of(inputs.substrate);
+    std::vector<std::pair<double, double>> lights;  // wavelength and s_g of the solver
     for (int nm = colour::kVisibleMin; nm <= colour::kVisibleMax; nm += steps.wavelength_nm)
-        lights.emplace_back(nm, inputs.s_g);
+        lights.emplace_back(nm, sign * inputs.s_g);
     const std::size_t wavelengths = lights.size();
     for (const double s_g : comb_starts(inputs, steps.angle_deg)) lights.emplace_back(inputs.wavelength_nm, s_g);
     std::vector<OrderEfficiencies> solved(lights.size());
@@ -68,13 +76,13 @@ std::optional<std::vector<RigorousOrder>> curves_at(const RigorousInputs& inputs
         const auto [wavelength_nm, s_g] = lights[i];
         const double period = wavelength_nm / inputs.relief.pitch_nm;
         if (i >= wavelengths) {
-            add_incidences(solved[i], s_g, period, curves);
+            add_incidences(solved[i], s_g, period, inputs.substrate, curves);
             continue;
         }
         for (RigorousOrder& curve : curves)
-            if (std::abs(curve.order * period - s_g) < 1.0)
-                curve.over_wavelength.push_back({wavelength_nm, solved[i].reflected(curve.order, Light::TE),
-                                                 solved[i].reflected(curve.order, Light::TM)});
+            if (std::abs(sign * curve.order * period - s_g) < 1.0)
+                curve.over_wavelength.push_back(
+                    point_of(solved[i], sign * curve.order, inputs.substrate, wavelength_nm));
     }
     for (RigorousOrder& curve : curves) std::ranges::sort(curve.over_incidence, {}, &PolarisedPoint::at);
     return curves;
@@ -85,15 +93,15 @@ std::optional<std::vector<RigorousOrder>> curves_at(const RigorousInputs& inputs
 std::optional<std::vector<RigorousOrder>> rigorous_curves(
     const RigorousInputs& inputs, const std::stop_token& stop,
     const std::function<void(std::vector<RigorousOrder>)>& publish) {
-    const auto violet = colour::metal_index(inputs.metal, colour::kVisibleMin);
+    const auto violet = diffraction::index_of(inputs.substrate, colour::kVisibleMin);
     if (diffraction::first_truncation(inputs.relief, violet, colour::kVisibleMin) > diffraction::kMaximumTruncation)
         solve_converged(inputs.relief, violet, colour::kVisibleMin, inputs.s_g);  // refuses
     auto coarse = curves_at(inputs, {.wavelength_nm = 50, .angle_deg = 6.0, .margin = 0}, stop);
     if (!coarse) return std::nullopt;
     publish(*std::move(coarse));
-    const auto index = colour::metal_index(inputs.metal, inputs.wavelength_nm);
-    const diffraction::Converged converged =
-        solve_converged(inputs.relief, index, inputs.wavelength_nm, inputs.s_g, 2e-3);
+    const auto index = diffraction::index_of(inputs.substrate, inputs.wavelength_nm);
+    const diffraction::Converged converged = solve_converged(inputs.relief, index, inputs.wavelength_nm,
+                                                             diffraction::sign_of(inputs.substrate) * inputs.s_g, 2e-3);
     const int margin = converged.truncation - diffraction::first_truncation(inputs.relief, index, inputs.wavelength_nm);
     return curves_at(inputs, {.wavelength_nm = 10, .angle_deg = 1.5, .margin = margin}, stop);
 }

@@ -13,7 +13,7 @@ namespace rowland::inspector {
 /// A relief, the orders to show, and the light.
 struct RigorousInputs {
     diffraction::Relief relief;
-    colour::Metal metal = colour::Metal::Al;
+    diffraction::Substrate substrate = colour::Metal::Al;
     std::vector<int> orders;     ///< ascending
     double wavelength_nm = 550;  ///< of the curves over incidence
     double s_g = 0.0;            ///< of the curves over wavelength, |s_g| < 1

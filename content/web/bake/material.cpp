@@ -20,10 +20,10 @@ namespace rowland::web {
 
 namespace {
 
-/// Levels of the smoothed kernel an octave: blur(). Of a kernel of several views blur_for_lights() takes one less; more
-/// than four would be finer than its views, and a CD's texture has 15 MB with four.
+/// Levels of the smoothed kernel an octave: blur(). Of a kernel of several views blur_for_lights() takes one less, with
+/// which a CD's texture has 17 MB.
 constexpr int kLevels = 8;
-constexpr int kLevelsOfViews = 5;
+constexpr int kLevelsOfViews = 4;
 
 /// Efficiencies as solve.cpp and material.ts give them: the first wavelength, the step between wavelengths, the number
 /// of views and of orders, the orders, then EfficiencyGrid::values.
@@ -56,7 +56,7 @@ std::shared_ptr<const diffraction::EfficiencyGrid> efficiency_grid(std::span<con
 }
 
 /// What solve() of solve.cpp takes: the profile's index, 0 where nothing is left to solve, pitch, depth, duty, index
-/// over the grooves, metal.
+/// over the grooves and metal, or a sheet's index and -1, its reflectance.
 void append_relief(const Material& material, Numbers& numbers) {
     const diffraction::Grating& grating = material.grating();
     glm::vec2 shape(0.0F);
@@ -69,8 +69,10 @@ void append_relief(const Material& material, Numbers& numbers) {
     append(static_cast<float>(material.unsolved ? grating.profile.index() : 0), numbers);
     append(static_cast<float>(grating.pitch_nm), numbers);
     append(shape, numbers);
-    append(static_cast<float>(diffraction::groove_medium(grating.cover)), numbers);
-    append(static_cast<float>(grating.metal ? static_cast<int>(*grating.metal) : 0), numbers);
+    const auto& sheet = grating.transmission;
+    append(static_cast<float>(sheet ? sheet->ior : diffraction::groove_medium(grating.cover)), numbers);
+    append(static_cast<float>(grating.metal ? static_cast<int>(*grating.metal) : -1), numbers);
+    append(static_cast<float>(sheet ? sheet->reflectance : 0.0), numbers);
 }
 
 }  // namespace

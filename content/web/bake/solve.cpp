@@ -1,4 +1,4 @@
-// Rigorous theory: the efficiencies of a metal's grooves, by Maxwell's equations.
+// Rigorous theory: the efficiencies of grooves, by Maxwell's equations.
 #include "content/web/bake/exports.h"
 #include "modules/diffraction/rigorous/efficiencies.h"
 
@@ -7,9 +7,15 @@ namespace rowland::web {
 /// Efficiencies as read_material() of material.cpp takes them. The arguments are its facts about the relief. Takes
 /// seconds; those of the last few reliefs are kept.
 ROWLAND_EXPORT(solve)
-Numbers* solve(int profile, double pitch_nm, double depth_nm, double duty, double ior, int metal) {
+Numbers* solve(int profile, double pitch_nm, double depth_nm, double duty, double ior, int metal, double reflectance) {
     using namespace diffraction;
-    Grating grating{.pitch_nm = pitch_nm, .metal = static_cast<colour::Metal>(metal), .cover = Cover{.ior = ior}};
+    Grating grating{.pitch_nm = pitch_nm};
+    if (metal < 0) {
+        grating.transmission = Transmission{.ior = ior, .reflectance = reflectance};
+    } else {
+        grating.metal = static_cast<colour::Metal>(metal);
+        grating.cover = Cover{.ior = ior};
+    }
     switch (profile) {
         case 1:
             grating.profile = LamellarProfile{.duty = duty, .depth_nm = depth_nm};

@@ -143,8 +143,8 @@ Grating parse_grating(JsonReader json, const ReadNamed& read) {
     return grating;
 }
 
-/// Rigorous theory where it knows the grooves, unless the file names a theory or a representation that cannot take it.
-/// Only rigorous theory knows films.
+/// Rigorous theory where it knows the grooves, unless the file names a theory or a representation that cannot take it;
+/// of sheets only where the file asks for it. Only rigorous theory knows films.
 void choose_theory(JsonReader& json, Material& material) {
     if (json.is_recording_schema()) return;
     Grating& grating = material.grating;
@@ -154,10 +154,11 @@ void choose_theory(JsonReader& json, Material& material) {
         json.fail(refused->key.substr(1), refused->found, refused->expected, refused->remedy);
     const auto& pinned = material.quality.pinned;
     const bool takes_it = !pinned || !std::holds_alternative<StreakSurfaceSettings>(*pinned);
-    if (!named && !refused && takes_it) grating.theory = Theory::Rigorous;
+    const bool by_default = !grating.transmission || !grating.films.empty();
+    if (!named && !refused && takes_it && by_default) grating.theory = Theory::Rigorous;
     if (!grating.films.empty() && grating.theory == Theory::Scalar)
-        json.fail("grating/films", "films without rigorous theory", "lamellar, sinusoidal or blazed grooves of a metal",
-                  "leave the films out");
+        json.fail("grating/films", "films without rigorous theory",
+                  "lamellar, sinusoidal or blazed grooves of a metal or a sheet", "leave the films out");
 }
 
 /// Every transparent solid in visible light; diamond has 2.42.
@@ -226,7 +227,7 @@ Efficiencies efficiencies(const Grating& grating, double wavelength_nm) {
     for (const int order : grating.orders)
         if (order != 0 && takes_light(order)) found.listed += order_efficiency(grating, order, wavelength_nm);
     if (!rigorous) return found;
-    found.all = 0.0;
+    found.all = grating.transmission ? grating.transmission->reflectance : 0.0;  // seen on the other side
     for (const int order : grating.efficiencies->orders)
         if (takes_light(order)) found.all += order_efficiency(grating, order, wavelength_nm);
     return found;

@@ -126,6 +126,9 @@ constexpr double kColumnVariance = 0.25;
 /// The variance of a stencil of one column.
 constexpr double kLeastVariance = 1e-4;
 
+/// 2 − |u| below which no order is left.
+constexpr double kLeastViews = 1e-3;
+
 /// A normal distribution ends after this many deviations: 6e-5 of it is lost.
 constexpr double kBlurReach = 4.0;
 
@@ -150,6 +153,10 @@ std::vector<double> stencil(double deviation, double step) {
 
 }  // namespace
 
+double view_coordinate(double u, double v_g) {
+    return std::clamp((2.0 * v_g - u) / std::max(2.0 - std::abs(u), kLeastViews), -1.0, 1.0);
+}
+
 glm::dmat3 BlurredKernel::at(double x_nm, double deviation_nm, double v_g) const {
     const auto interpolate = [](double position, int count, int& low) {
         const double inside = std::clamp(position, 0.0, static_cast<double>(count - 1));
@@ -171,15 +178,18 @@ glm::dmat3 BlurredKernel::at(double x_nm, double deviation_nm, double v_g) const
     };
     if (views == 1) return of_view(0);
     int view = 0;
-    const double r = interpolate(0.5 * (v_g + 1.0) * (views - 1), views, view);
+    const double r = interpolate(0.5 * (view_coordinate(x_nm / pitch_nm, v_g) + 1.0) * (views - 1), views, view);
     return (1.0 - r) * of_view(view) + r * of_view(view + 1);
 }
 
-BlurredKernel blur(const KernelTable& kernel, double widest_nm, int columns, int levels_per_octave) {
+BlurredKernel blur(const KernelTable& kernel, double pitch_nm, double widest_nm, int columns, int levels_per_octave) {
     ROWLAND_CHECK_OP(widest_nm, >=, kNarrowest_nm);
     ROWLAND_CHECK_OP(columns, >=, 2);
-    BlurredKernel blurred{
-        .narrowest_nm = kNarrowest_nm, .columns = columns, .levels_per_octave = levels_per_octave, .values = {}};
+    BlurredKernel blurred{.narrowest_nm = kNarrowest_nm,
+                          .columns = columns,
+                          .levels_per_octave = levels_per_octave,
+                          .pitch_nm = pitch_nm,
+                          .values = {}};
     blurred.levels = 2 + static_cast<int>(std::ceil(std::log2(widest_nm / kNarrowest_nm) * levels_per_octave));
     const auto deviation_of = [&](int level) {
         return kNarrowest_nm * std::exp2(static_cast<double>(level) / levels_per_octave);
@@ -191,26 +201,39 @@ BlurredKernel blur(const KernelTable& kernel, double widest_nm, int columns, int
     const double step = (blurred.end_nm - blurred.begin_nm) / (columns - 1);
     blurred.views = kernel.views == 1 ? 1 : kBlurredViews;
     const auto levels = static_cast<std::size_t>(blurred.levels);
-    std::vector<glm::dmat3> means(size * static_cast<std::size_t>(blurred.views));
-    for (std::size_t i = 0; i < means.size(); ++i) {
-        const double x = blurred.begin_nm + static_cast<double>(i % size) * step;
-        const double v_g = 2.0 * static_cast<double>(i / size) / (kBlurredViews - 1) - 1.0;
-        means[i] = kernel.average(x - 0.5 * step, x + 0.5 * step, v_g);
-    }
-    blurred.values.resize(means.size() * levels);
+    const auto x_of = [&](std::size_t column) { return blurred.begin_nm + static_cast<double>(column) * step; };
+    std::vector<glm::dmat3> means(size * static_cast<std::size_t>(kernel.views));  // by the kernel's views
+    parallel_for(static_cast<std::size_t>(kernel.views), [&](std::size_t view) {
+        const double v_g = EfficiencyGrid::view_at(static_cast<int>(view));
+        for (std::size_t i = 0; i < size; ++i)
+            means[view * size + i] = kernel.average(x_of(i) - 0.5 * step, x_of(i) + 0.5 * step, v_g);
+    });
+    blurred.values.resize(static_cast<std::size_t>(blurred.views) * levels * size);
     parallel_for(levels * static_cast<std::size_t>(blurred.views), [&](std::size_t row) {
         const std::size_t level = row % levels;
-        const glm::dmat3* const from = means.data() + row / levels * size;
         const double deviation = deviation_of(static_cast<int>(level));
         const double left = deviation * deviation - kColumnVariance * step * step;
         const std::vector<double> weights = stencil(std::sqrt(std::max(left, kLeastVariance * step * step)), step);
-        for (std::size_t i = 0; i < size; ++i) {
+        const auto sum_at = [&](std::size_t view, std::size_t i) {
+            const glm::dmat3* const from = means.data() + view * size;
             glm::dmat3 sum = weights[0] * from[i];
             for (std::size_t j = 1; j < weights.size(); ++j) {
                 if (i >= j) sum += weights[j] * from[i - j];
                 if (i + j < size) sum += weights[j] * from[i + j];
             }
-            blurred.values[row * size + i] = glm::mat3(sum);
+            return sum;
+        };
+        const double coordinate = 2.0 * static_cast<double>(row / levels) / (kBlurredViews - 1) - 1.0;
+        for (std::size_t i = 0; i < size; ++i) {
+            glm::mat3& value = blurred.values[row * size + i];
+            if (blurred.views == 1) {
+                value = glm::mat3(sum_at(0, i));
+                continue;
+            }
+            const double u = x_of(i) / pitch_nm;
+            const EfficiencyGrid::ViewCell cell =
+                EfficiencyGrid::view_cell(0.5 * (u + coordinate * std::max(2.0 - std::abs(u), 0.0)));
+            value = glm::mat3((1.0 - cell.weight) * sum_at(cell.first, i) + cell.weight * sum_at(cell.first + 1, i));
         }
     });
     return blurred;
@@ -220,8 +243,8 @@ BlurredKernel blur_for_lights(const KernelTable& kernel, double pitch_nm, int mo
     const double widest_nm = std::max(kNarrowest_nm, kWidestDeviation * pitch_nm);
     const double extent_nm = kernel.end_nm - kernel.begin_nm + 8.0 * widest_nm;
     const double columns = std::clamp(extent_nm / kColumn_nm, double{kFewestColumns}, double(most_columns));
-    if (kernel.views == 1) return blur(kernel, widest_nm, static_cast<int>(columns), levels_per_octave);
-    return blur(kernel, widest_nm, static_cast<int>(columns) / 2, std::max(1, levels_per_octave - 1));
+    if (kernel.views == 1) return blur(kernel, pitch_nm, widest_nm, static_cast<int>(columns), levels_per_octave);
+    return blur(kernel, pitch_nm, widest_nm, static_cast<int>(columns) / 2, std::max(1, levels_per_octave - 1));
 }
 
 KernelUniforms kernel_uniforms(const KernelTable& kernel, const BlurredKernel& blurred, double pitch_nm) {

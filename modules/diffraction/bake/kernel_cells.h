@@ -83,13 +83,17 @@ class KernelCells {
 };
 
 inline constexpr int kLevelsPerOctave = 4;
-inline constexpr int kBlurredViews = 17;
+inline constexpr int kBlurredViews = 25;
+
+/// (v_g − s_g)/(2 − |u|), −1 to 1: where the view lies among those of u = s_g + v_g. Light or view is at the horizon at
+/// the ends, PHYSICS (14.8).
+double view_coordinate(double u, double v_g);
 
 /// k smoothed by normal distributions, over x and the deviation σ: the response to a light of that extent in one
 /// look-up. A 2D texture, GL_LINEAR, GL_CLAMP_TO_EDGE, three texels (the matrix's columns) per entry.
 ///   s = ((x − begin)/(end − begin) (columns−1) + ½)/columns
 ///   t = (log₂(σ/narrowest)·levels_per_octave + ½)/levels
-/// Where k depends on the view, such a table for each of kBlurredViews at v_g = 2j/(kBlurredViews−1) − 1.
+/// Where k depends on the view, such a table for each of kBlurredViews, at view_coordinate() = 2j/(kBlurredViews−1) − 1.
 struct BlurredKernel {
     double begin_nm = 0.0;
     double end_nm = 0.0;
@@ -98,6 +102,7 @@ struct BlurredKernel {
     int levels = 0;
     int levels_per_octave = kLevelsPerOctave;
     int views = 1;
+    double pitch_nm = 0.0;
     std::vector<glm::mat3> values;  ///< per nm; view by view, level by level
 
     /// The value that the texture unit interpolates: 0 at the table's ends, and no narrower than a column.
@@ -107,7 +112,7 @@ struct BlurredKernel {
 /// σ from 1 nm to at least `widest_nm` ≥ 1; x to 4σ beyond the kernel. A value is what at() is to give for σ: the
 /// stencil is narrower by what columns and interpolation add. Where σ is wider than the kernel's features, values are
 /// as 1/σ, and n levels an octave are off by (ln 2/n)²/8 between them: .4 % for 4, .1 % for 8.
-BlurredKernel blur(const KernelTable& kernel, double widest_nm, int columns = 2048,
+BlurredKernel blur(const KernelTable& kernel, double pitch_nm, double widest_nm, int columns = 2048,
                    int levels_per_octave = kLevelsPerOctave);
 
 /// blur() for lights and pixels on a grating of this pitch: deviations of u up to .2. At most so many columns. Of

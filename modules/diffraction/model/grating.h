@@ -139,6 +139,9 @@ inline std::optional<Grating> reflected_side(const Grating& sheet) {
     if (!sheet.transmission || sheet.transmission->reflectance == 0.0) return std::nullopt;
     Grating side = sheet;
     side.transmission.reset();
+    side.theory = Theory::Scalar;
+    side.efficiencies = nullptr;
+    side.films.clear();
     side.side_reflectance = sheet.transmission->reflectance;
     return side;
 }

@@ -48,16 +48,18 @@ std::vector<double> solved_directions(double wavelength_nm, double pitch_nm, boo
 /// Of one wavelength, by order of the grid.
 using Samples = std::vector<std::vector<EfficiencyGrid::Sample>>;
 
-/// Adds what one solve gives: for light from every direction of its comb, each order.
-void add(const OrderEfficiencies& solved, double s_g, double period, const std::vector<int>& orders, bool mirrored,
-         Samples& samples) {
+/// Adds what one solve gives: for light from every direction of its comb, each order; of a symmetric relief for light
+/// from the opposite directions, too.
+void add(const OrderEfficiencies& solved, double s_g, double period, const std::vector<int>& orders,
+         const Substrate& substrate, bool symmetric, Samples& samples) {
+    const bool mirrored = sign_of(substrate) < 0;
     for (const auto [k, from] : comb_of(solved, s_g, period))
         for (std::size_t o = 0; o < orders.size(); ++o) {
             const double to = orders[o] * period - from;
             if (std::abs(to) >= 1.0) continue;
-            const double efficiency = solved.reflected(orders[o], Light::Unpolarised, k);
-            samples[o].push_back({from, efficiency});
-            if (mirrored) samples[orders.size() - 1 - o].push_back({-from, efficiency});
+            const double efficiency = leaving(solved, orders[o], substrate, Light::Unpolarised, k);
+            if (symmetric || !mirrored) samples[o].push_back({from, efficiency});
+            if (symmetric || mirrored) samples[orders.size() - 1 - o].push_back({-from, efficiency});
         }
 }
 
@@ -73,6 +75,34 @@ void make_symmetric(EfficiencyGrid& grid) {
             float& other = grid.values[(opposite + 1) * EfficiencyGrid::kViews - 1 - view];
             value = other = 0.5F * (value + other);
         }
+    }
+}
+
+/// Reduces all efficiencies by one factor so that those of no direction sum to more than `most`.
+void limit_to(double most, EfficiencyGrid& grid) {
+    const std::size_t nodes = grid.values.size() / grid.orders.size();
+    double largest = 0.0;
+    for (std::size_t node = 0; node < nodes; ++node) {
+        double sum = 0.0;
+        const double period =
+            EfficiencyGrid::wavelength_at(static_cast<int>(node / EfficiencyGrid::kViews)) / grid.pitch_nm;
+        const double v_g = EfficiencyGrid::view_at(static_cast<int>(node % EfficiencyGrid::kViews));
+        for (std::size_t o = 0; o < grid.orders.size(); ++o)
+            // Entries of light from below the horizon repeat others.
+            if (std::abs(grid.orders[o] * period - v_g) < 1.0) sum += double{grid.values[o * nodes + node]};
+        largest = std::max(largest, sum);
+    }
+    if (largest <= most) return;
+    for (float& value : grid.values) value *= static_cast<float>(most / largest);
+}
+
+/// The relief may be on either side of a sheet: the mean of what each sends from v_g to s_g. Samples are in the order
+/// of v_g; their directions are closed under v_g → mλ/d − v_g.
+void exchange_sides(std::vector<EfficiencyGrid::Sample>& samples) {
+    for (std::size_t i = 0; 2 * i < samples.size(); ++i) {
+        double& a = samples[i].efficiency;
+        double& b = samples[samples.size() - 1 - i].efficiency;
+        a = b = 0.5 * (a + b);
     }
 }
 
@@ -97,13 +127,13 @@ std::vector<int> orders_of(double pitch_nm) {
 
 }  // namespace
 
-SolvedEfficiencies solve_efficiencies(const Relief& relief, colour::Metal metal, const std::string& name) {
+SolvedEfficiencies solve_efficiencies(const Relief& relief, const Substrate& substrate, const std::string& name) {
     check_relief(relief, name);
     constexpr int kRows = EfficiencyGrid::kWavelengths;
     SolvedEfficiencies result{.grid = empty_grid(relief.pitch_nm, orders_of(relief.pitch_nm))};
     const std::vector<int>& orders = result.grid.orders;
     const bool symmetric = !std::holds_alternative<BlazedProfile>(relief.shape);
-    const auto index_at = [&](int row) { return colour::metal_index(metal, EfficiencyGrid::wavelength_at(row)); };
+    const auto index_at = [&](int row) { return index_of(substrate, EfficiencyGrid::wavelength_at(row)); };
 
     const int rows_per_margin = rows_per_choice(relief.pitch_nm);
     std::vector<Margin> margins(static_cast<std::size_t>((kRows - 1) / rows_per_margin + 1));
@@ -134,7 +164,8 @@ SolvedEfficiencies solve_efficiencies(const Relief& relief, colour::Metal metal,
                                                truncation_with(margin, relief, index_at(row), wavelength_nm));
         {
             const std::lock_guard lock(mutex);
-            add(solved, s_g, wavelength_nm / relief.pitch_nm, orders, symmetric, rows[static_cast<std::size_t>(row)]);
+            add(solved, s_g, wavelength_nm / relief.pitch_nm, orders, substrate, symmetric,
+                rows[static_cast<std::size_t>(row)]);
         }
         progress.advance();
     });
@@ -145,40 +176,46 @@ SolvedEfficiencies solve_efficiencies(const Relief& relief, colour::Metal metal,
             std::ranges::sort(samples, {}, [](const EfficiencyGrid::Sample& sample) {
                 return std::pair(sample.v_g, sample.efficiency);
             });
+            if (std::holds_alternative<double>(substrate)) exchange_sides(samples);
             result.grid.set(o, row, samples);
         }
     if (symmetric) make_symmetric(result.grid);
     return result;
 }
 
-std::shared_ptr<const EfficiencyGrid> rigorous_efficiencies(const Grating& grating, const std::string& name) {
+namespace {
+
+/// What solve_efficiencies() gives; those of the last few reliefs are kept.
+std::shared_ptr<const EfficiencyGrid> solved_grid(const Relief& relief, const Substrate& substrate,
+                                                  const std::string& name) {
     constexpr std::size_t kKept = 16;
     struct Known {
-        std::string key;
+        Relief relief;
+        Substrate substrate;
         std::shared_ptr<const EfficiencyGrid> grid;
     };
     static std::mutex mutex;
     static std::vector<Known> known;
-    const Relief relief = relief_of(grating, name);
-    std::string key = std::visit(
-        [&](const auto& shape) {
-            double duty = 0.0;
-            if constexpr (requires { shape.duty; }) duty = shape.duty;
-            return fmt::format("{} {} {} {} {} {}", relief.shape.index(), relief.pitch_nm, shape.depth_nm, duty,
-                               relief.ambient_ior, static_cast<int>(*grating.metal));
-        },
-        relief.shape);
-    for (const DielectricFilm& film : relief.films) key += fmt::format(" {} {}", film.ior, film.thickness_nm);
     {
         const std::lock_guard lock(mutex);
         for (const Known& one : known)
-            if (one.key == key) return one.grid;
+            if (one.relief == relief && one.substrate == substrate) return one.grid;
     }
-    auto grid = std::make_shared<const EfficiencyGrid>(solve_efficiencies(relief, *grating.metal, name).grid);
+    auto grid = std::make_shared<const EfficiencyGrid>(solve_efficiencies(relief, substrate, name).grid);
     const std::lock_guard lock(mutex);
     if (known.size() == kKept) known.erase(known.begin());
-    known.push_back({key, grid});
+    known.push_back({relief, substrate, grid});
     return grid;
+}
+
+}  // namespace
+
+std::shared_ptr<const EfficiencyGrid> rigorous_efficiencies(const Grating& grating, const std::string& name) {
+    auto grid = solved_grid(relief_of(grating, name), substrate_of(grating), name);
+    if (!grating.transmission || grating.transmission->reflectance == 0.0) return grid;
+    EfficiencyGrid limited = *grid;
+    limit_to(1.0 - grating.transmission->reflectance, limited);
+    return std::make_shared<const EfficiencyGrid>(std::move(limited));
 }
 
 }  // namespace rowland::diffraction

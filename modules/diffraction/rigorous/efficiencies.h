@@ -17,15 +17,18 @@ struct SolvedEfficiencies {
     int solves = 0;
 };
 
-/// The efficiencies of all orders of a relief for light of all visible wavelengths from all directions of the classical
-/// plane, each mean of both polarisations. Converged to kGridTolerance. Uses all cores, the result does not depend on
-/// their number; shows progress as `name`. Throws Error (input) as solve_converged().
+/// The efficiencies of all orders that leave a substrate with a relief, for light of all visible wavelengths from all
+/// directions of the classical plane, each mean of both polarisations. The relief may be on either side of a sheet, the
+/// mean of both is taken; a blazed one is thickest toward +g (PHYSICS §12). Converged to kGridTolerance. Uses all
+/// cores, the result does not depend on their number; shows progress as `name`. Throws Error (input) as
+/// solve_converged().
 ///
 /// One solve gives light from directions λ/d apart: a wavelength takes as many as fill the grid's step, of a symmetric
 /// relief half of them.
-SolvedEfficiencies solve_efficiencies(const Relief& relief, colour::Metal metal, const std::string& name);
+SolvedEfficiencies solve_efficiencies(const Relief& relief, const Substrate& substrate, const std::string& name);
 
-/// The grid of a grating that relief_of() takes. Those of the last few reliefs are kept.
+/// The grid of a grating that relief_of() takes. Those of the last few reliefs are kept. Of a sheet of reflectance ρ
+/// all are reduced by one factor where they and ρ would exceed 1.
 std::shared_ptr<const EfficiencyGrid> rigorous_efficiencies(const Grating& grating, const std::string& name);
 
 }  // namespace rowland::diffraction

@@ -60,10 +60,10 @@ std::optional<Refusal> rigorous_refusal(const Grating& grating) {
     };
     const std::optional<double> depth = std::visit(depth_nm, grating.profile);
     if (!depth) return with("a profile without a relief", kReliefs);
-    if (grating.transmission || grating.side_reflectance) return with("a sheet", "grooves of a metal");
-    if (!grating.metal)
-        return Refusal{"/grating/theory", "\"rigorous\" without a metal", "grooves of a metal",
-                       "add \"metal\": \"Al\""};
+    if (grating.side_reflectance) return with("the reflected side of a sheet", "grooves of a metal");
+    if (!grating.metal && !grating.transmission)
+        return Refusal{"/grating/theory", "\"rigorous\" without a metal",
+                       "grooves of a metal, or of a sheet that transmits", "add \"metal\": \"Al\""};
     const double finest_nm = colour::kVisibleMin / 2.0;
     if (!(grating.pitch_nm > finest_nm && grating.pitch_nm <= kCoarsestSolved_nm))
         return with(fmt::format("a pitch of {} nm", grating.pitch_nm),
@@ -76,6 +76,16 @@ std::optional<Refusal> rigorous_refusal(const Grating& grating) {
                        fmt::format("at least {}", kManyGrooves),
                        "it does not give the groove's spectrum between the orders"};
     return std::nullopt;
+}
+
+std::complex<double> index_of(const Substrate& substrate, double wavelength_nm) {
+    if (const auto* metal = std::get_if<colour::Metal>(&substrate)) return colour::metal_index(*metal, wavelength_nm);
+    return std::get<double>(substrate);
+}
+
+Substrate substrate_of(const Grating& grating) {
+    if (grating.transmission) return grating.transmission->ior;
+    return *grating.metal;
 }
 
 Relief relief_of(const Grating& grating, const std::string& name) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <complex>
 #include <optional>
 #include <string>
 #include <variant>
@@ -33,13 +34,25 @@ void check_relief(const Relief& relief, const std::string& name);
 /// The coarsest grating that is solved: 105 orders of visible light are above the horizon.
 inline constexpr double kCoarsestSolved_nm = 20000.0;
 
+/// What lies under a relief: a metal, or the transparent sheet of this index that sends its light on through a flat
+/// other face.
+using Substrate = std::variant<colour::Metal, double>;
+std::complex<double> index_of(const Substrate& substrate, double wavelength_nm);
+/// The sign of v_g, s_g and orders in the solver, whose blazed relief descends toward +g: a sheet's ascends.
+inline int sign_of(const Substrate& substrate) {
+    return std::holds_alternative<double>(substrate) ? -1 : 1;
+}
+
 /// Why rigorous theory does not know a grating; nullopt for at least kManyGrooves lamellar, sinusoidal or blazed
-/// grooves of a metal, in air or under a cover, at a pitch above λ/2, below which no order but 0 propagates, and up to
-/// kCoarsestSolved_nm, with a relief that check_relief() takes. Films are not looked at.
+/// grooves of a metal, in air or under a cover, or of a sheet that transmits, at a pitch above λ/2, below which no
+/// order but 0 propagates, and up to kCoarsestSolved_nm, with a relief that check_relief() takes. Films are not looked
+/// at.
 std::optional<Refusal> rigorous_refusal(const Grating& grating);
 
 /// The relief of a grating with its films. Throws Error (input) that calls it `name` where rigorous_refusal() or
 /// check_relief() does.
 Relief relief_of(const Grating& grating, const std::string& name);
+/// Of a grating that relief_of() takes.
+Substrate substrate_of(const Grating& grating);
 
 }  // namespace rowland::diffraction

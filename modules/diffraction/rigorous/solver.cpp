@@ -87,6 +87,26 @@ double OrderEfficiencies::sum(Light light, int k) const {
     return total;
 }
 
+double through_sheet(const OrderEfficiencies& solved, int order, double ior, Light light, int k) {
+    if (light == Light::Unpolarised)
+        return 0.5 *
+               (through_sheet(solved, order, ior, Light::TE, k) + through_sheet(solved, order, ior, Light::TM, k));
+    const int column = k + order - solved.transmitted_first;
+    if (column < 0 || column >= static_cast<int>(solved.transmitted_v_g.size())) return 0.0;
+    const double sine = solved.transmitted_v_g[static_cast<std::size_t>(column)];
+    if (std::abs(sine) >= 1.0) return 0.0;
+    const double in_air = std::sqrt(1.0 - sine * sine);
+    const double inside = std::sqrt(1.0 - sine * sine / (ior * ior));
+    const double a = light == Light::TE ? ior * inside : inside;
+    const double b = light == Light::TE ? in_air : ior * in_air;
+    return 4.0 * a * b / ((a + b) * (a + b)) * solved.transmitted(order, light, k);
+}
+
+double leaving(const OrderEfficiencies& solved, int order, const Substrate& substrate, Light light, int k) {
+    if (const auto* ior = std::get_if<double>(&substrate)) return through_sheet(solved, order, *ior, light, k);
+    return solved.reflected(order, light, k);
+}
+
 OrderEfficiencies solve(const Relief& relief, std::complex<double> substrate_index, double wavelength_nm, double s_g,
                         int truncation) {
     check_light(relief, substrate_index, wavelength_nm, s_g);

@@ -33,6 +33,16 @@ class OrderEfficiencies {
     std::vector<double> transmitted_te, transmitted_tm;  ///< row i as above; column j: into transmitted_v_g[j]
 };
 
+/// η of `order` for light from s_g − kλ/d that a sheet of index `ior` under the relief sends into air on its other
+/// side: transmitted(), times Fresnel's transmittance of the flat face there. 0 for what that face reflects totally.
+/// What the two faces send back and forth is left out: .2 % for an index of 1.5.
+double through_sheet(const OrderEfficiencies& solved, int order, double ior, Light light = Light::Unpolarised,
+                     int k = 0);
+
+/// What leaves `substrate`: reflected() by a metal, or through_sheet().
+double leaving(const OrderEfficiencies& solved, int order, const Substrate& substrate, Light light = Light::Unpolarised,
+               int k = 0);
+
 /// The largest truncation that solve() takes: 2 s for a lamellar relief.
 inline constexpr int kMaximumTruncation = 160;
 

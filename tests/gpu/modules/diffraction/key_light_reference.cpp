@@ -54,7 +54,7 @@ const BlurredKernel& smoothed(const CookedMaterial& cooked) {
     const std::pair name(pitch, cooked.kernel.views);
     const auto found = kernels.find(name);
     if (found != kernels.end()) return found->second;
-    return kernels.emplace(name, blur(cooked.kernel, 0.2 * pitch, 4096)).first->second;
+    return kernels.emplace(name, blur(cooked.kernel, pitch, 0.2 * pitch, 4096)).first->second;
 }
 
 glm::dvec3 key_light_xyz(const CookedMaterial& cooked, const std::vector<lighting::KeyLight>& keys,

@@ -14,7 +14,7 @@ using diffraction::Light;
 
 RigorousInputs dvd() {
     return {.relief = {.pitch_nm = 740.0, .shape = diffraction::LamellarProfile{.duty = 0.43, .depth_nm = 103.0}},
-            .metal = colour::Metal::Al,
+            .substrate = colour::Metal::Al,
             .orders = {-1, 0, 1},
             .wavelength_nm = 500.0,
             .s_g = 0.2};
@@ -25,7 +25,7 @@ double largest_error(const RigorousInputs& inputs, const std::vector<RigorousOrd
     double largest = 0.0;
     const auto compare = [&](const RigorousOrder& curve, const PolarisedPoint& point, double wavelength_nm,
                              double s_g) {
-        const auto index = colour::metal_index(inputs.metal, wavelength_nm);
+        const auto index = diffraction::index_of(inputs.substrate, wavelength_nm);
         const auto solved = solve_converged(inputs.relief, index, wavelength_nm, s_g).efficiencies;
         largest = std::max({largest, std::abs(point.te - solved.reflected(curve.order, Light::TE)),
                             std::abs(point.tm - solved.reflected(curve.order, Light::TM))});

@@ -68,7 +68,7 @@ TEST_F(RigorousRadiance, IsThatOfAnotherProgram) {
     EXPECT_LT(error_of(grooves("rigorous"), "arc/key_lights=16"), 0.035);
 }
 
-/// By a sum of products over views and u, PHYSICS (14.7).
+/// By a sum of products over views and u, PHYSICS (14.9).
 TEST_F(RigorousRadiance, TheMapOfAWideLobeIsTheReferences) {
     const auto with_lobe = [](const char* theory) {
         nlohmann::json json = grooves(theory);
@@ -84,6 +84,24 @@ TEST_F(RigorousRadiance, TheMapOfAWideLobeIsTheReferences) {
     nlohmann::json json = grooves("rigorous");
     json["grating"]["groove_lobe"] = {{"sigma", 0.15}};
     EXPECT_LT(error_of(json, "planar/map_resolution=64"), 0.02);
+}
+
+/// The reference takes the light's direction and the map the view's, which are exchangeable although the sheet is not
+/// the same from both sides.
+TEST_F(RigorousRadiance, TheMapOfASheetIsTheReferences) {
+    const auto sheet = [](const char* theory) -> nlohmann::json {
+        return {{"grating",
+                 {{"pitch_nm", 1000},
+                  {"profile", {{"type", "sinusoidal"}, {"depth_nm", 320}}},
+                  {"orders", {-2, -1, 1, 2}},
+                  {"theory", theory}}},
+                {"transmission", {{"ior", 1.57}, {"reflectance", 0.09}}}};
+    };
+    frames_.resize(24);
+    const Material rigorous = with_efficiencies(parse_material(sheet("rigorous"), "test"), "test");
+    expected_ = reference_radiance(rigorous.grating, *probe_, colour::LightSpectra(), frames_);
+    EXPECT_GT(reference_error(parse_material(sheet("scalar"), "test")), 0.03);
+    EXPECT_LT(error_of(sheet("rigorous"), "planar/map_resolution=128"), 0.01);
 }
 
 /// A table of as many incidences as the grid has views is the grid.

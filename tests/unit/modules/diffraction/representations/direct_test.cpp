@@ -42,7 +42,7 @@ struct Kernels {
     explicit Kernels(const Grating& grating)
         : exact(grating, colour::LightSpectra()),
           table(tabulate(exact)),
-          blurred(blur(table, 0.25 * grating.pitch_nm)) {}
+          blurred(blur(table, grating.pitch_nm, 0.25 * grating.pitch_nm)) {}
 };
 
 template <typename Kernel, typename Light>
@@ -134,7 +134,7 @@ TEST(Direct, LobeIsItsArcIntegral) {
 /// lobes are the sun and the narrowest one. Measured: .0016 and .0051; .013 and .034 for levels from 4 nm on.
 TEST(Direct, NarrowLobesAreTheirSlices) {
     const Kernels kernels(compact_disc());
-    const BlurredKernel fine = blur(kernels.table, 0.25 * 1600.0, 2048, 8);
+    const BlurredKernel fine = blur(kernels.table, 1600.0, 0.25 * 1600.0, 2048, 8);
     for (const double concentration : {1.6e5, lighting::kNarrowestConcentration}) {
         const lighting::KeyLight key{toward(0.35, 0.9), {1.0, 0.5, 0.25}, concentration};
         std::vector<glm::dvec3> one_look;

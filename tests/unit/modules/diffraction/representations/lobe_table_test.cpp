@@ -22,7 +22,7 @@ const KernelTable& kernel_table() {
 }
 
 const BlurredKernel& kernel() {
-    static const BlurredKernel blurred = blur(kernel_table(), 0.2 * kPitch, 4096);
+    static const BlurredKernel blurred = blur(kernel_table(), kPitch, 0.2 * kPitch, 4096);
     return blurred;
 }
 

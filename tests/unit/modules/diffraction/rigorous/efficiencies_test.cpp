@@ -70,5 +70,80 @@ TEST(RigorousEfficiencies, AFilmOnTheGroovesIsSolvedWithThem) {
     EXPECT_GT(interpolation_error({.grid = *plain}, relief, colour::Metal::Al, 30), 0.1);
 }
 
+/// What a surface met from inside a sheet sends into air, times the transmittance of the sheet's flat face.
+double from_inside(const Relief& inside, double wavelength_nm, double s_g, int order) {
+    const double n = inside.ambient_ior;
+    const OrderEfficiencies solved =
+        solve(inside, 1.0, wavelength_nm, s_g, first_truncation(inside, 1.0, wavelength_nm) + 12);
+    const double in_air = std::sqrt(1.0 - s_g * s_g);
+    const double in_sheet = std::sqrt(1.0 - s_g * s_g / (n * n));
+    const double te = (n * in_sheet - in_air) / (n * in_sheet + in_air);
+    const double tm = (in_sheet - n * in_air) / (in_sheet + n * in_air);
+    return 0.5 * ((1.0 - te * te) * solved.transmitted(order, Light::TE) +
+                  (1.0 - tm * tm) * solved.transmitted(order, Light::TM));
+}
+
+/// Against the same surface, upside down, met from inside: by reciprocity.
+TEST(RigorousEfficiencies, ASheetSendsOnWhatItsReliefDoesFromInside) {
+    const struct {
+        Profile sheet;
+        decltype(Relief::shape) upside_down;
+    } rows[] = {{LamellarProfile{0.3, 400.0}, LamellarProfile{0.7, 400.0}},
+                {SinusoidalProfile{320.0}, SinusoidalProfile{320.0}},
+                {BlazedProfile{600.0}, BlazedProfile{600.0}}};
+    for (const auto& row : rows) {
+        SCOPED_TRACE(row.sheet.index());
+        Grating sheet{.pitch_nm = 800.0, .profile = row.sheet, .theory = Theory::Rigorous};
+        sheet.transmission = Transmission{.ior = 1.5};
+        const auto grid = rigorous_efficiencies(sheet, "sheet");
+        const Relief inside{.pitch_nm = sheet.pitch_nm, .shape = row.upside_down, .ambient_ior = 1.5};
+        double squares = 0.0;
+        double differences = 0.0;
+        for (const double wavelength_nm : {450.0, 550.0, 640.0})
+            for (const double s_g : {-0.6, -0.2, 0.1, 0.5}) {
+                double sum = 0.0;
+                for (const int order : grid->orders) {
+                    const double v_g = order * wavelength_nm / sheet.pitch_nm - s_g;
+                    if (std::abs(v_g) >= 0.98) continue;
+                    // The relief on one side, and on the other.
+                    const double expected = 0.5 * (from_inside(inside, wavelength_nm, s_g, order) +
+                                                   from_inside(inside, wavelength_nm, v_g, order));
+                    for (const double direction : {s_g, v_g}) {
+                        const double found = grid->at(order, wavelength_nm, direction);
+                        squares += expected * expected;
+                        differences += (found - expected) * (found - expected);
+                    }
+                    sum += expected;
+                }
+                EXPECT_LT(sum, 0.96);  // the flat face alone sends on no more
+            }
+        EXPECT_LT(std::sqrt(differences / squares), 0.02);
+    }
+}
+
+TEST(RigorousEfficiencies, ACoarseSheetNearsScalarTheoryAndKeepsWhatItReflects) {
+    Grating sheet{.pitch_nm = 2000.0, .profile = BlazedProfile{200.0}, .theory = Theory::Rigorous};
+    sheet.transmission = Transmission{.ior = 1.5};
+    const auto grid = rigorous_efficiencies(sheet, "sheet");
+    Grating scalar = sheet;
+    scalar.theory = Theory::Scalar;
+    const double faces = std::pow(4.0 * 1.5 / (2.5 * 2.5), 2);
+    for (const int order : {-1, 0, 1, 2})
+        EXPECT_NEAR(grid->at(order, 500.0, 0.0), faces * order_efficiency(scalar, order, 500.0), 0.05) << order;
+    sheet.transmission->reflectance = 0.4;
+    const auto reduced = rigorous_efficiencies(sheet, "sheet");
+    double largest = 0.0;
+    for (int view = 0; view < EfficiencyGrid::kViews; ++view) {
+        const double v_g = EfficiencyGrid::view_at(view);
+        double sum = 0.0;
+        for (const int order : grid->orders)
+            if (std::abs(order * 500.0 / sheet.pitch_nm - v_g) < 1.0) sum += reduced->at(order, 500.0, v_g);
+        largest = std::max(largest, sum);
+    }
+    EXPECT_LT(largest, 0.6 + 1e-5);
+    EXPECT_GT(largest, 0.58);
+    EXPECT_EQ(reflected_side(sheet)->theory, Theory::Scalar);
+}
+
 }  // namespace
 }  // namespace rowland::diffraction
