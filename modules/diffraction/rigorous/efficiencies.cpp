@@ -48,8 +48,8 @@ std::vector<double> solved_directions(double wavelength_nm, double pitch_nm, boo
 /// Of one wavelength, by order of the grid.
 using Samples = std::vector<std::vector<EfficiencyGrid::Sample>>;
 
-/// Adds what one solve gives: for light from every direction of its comb, each order; of a symmetric relief for light
-/// from the opposite directions, too.
+/// Adds what one solve gives: for light from every direction of its comb, each order; of a symmetric relief also for
+/// light from the opposite directions.
 void add(const OrderEfficiencies& solved, double s_g, double period, const std::vector<int>& orders,
          const Substrate& substrate, bool symmetric, Samples& samples) {
     const bool mirrored = sign_of(substrate) < 0;
