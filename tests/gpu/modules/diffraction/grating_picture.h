@@ -3,18 +3,11 @@
 // Pictures of gratings against the CPU: what the tests of all representations share.
 
 #include <chrono>
-#include <functional>
-#include <memory>
-#include <optional>
-#include <vector>
 
 #include "engine/render/renderer.h"
 #include "modules/diffraction/module.h"
 #include "tests/gpu/gl_test.h"
-#include "tests/gpu/modules/diffraction/cook_grating.h"
-#include "tests/gpu/modules/diffraction/drawn_triangle.h"
 #include "tests/gpu/modules/diffraction/filter_error.h"
-#include "tests/gpu/modules/diffraction/grating_light.h"
 #include "tests/gpu/modules/diffraction/key_light_reference.h"
 
 namespace rowland::diffraction {
@@ -27,6 +20,41 @@ inline constexpr const char* kFoil = R"({"pitch_nm": 1000, "profile": {"type": "
 inline constexpr const char* kPits = R"({"pitch_nm": 1500, "profile": {"type": "slit", "width_nm": 700},
                                          "groove_lobe": {"pits": {"length_nm": 850, "coherent": 0.3}}})";
 
+/// A material of these two JSON objects, and further members.
+CookedMaterial cook(const std::string& grating, const std::string& quality, const std::string& others = "");
+
+/// A grating whose table of orders carries all light, so that nothing is left for the base; as a blazed one's.
+CookedMaterial cook_complete(const std::string& grating, const std::string& quality, const std::string& others = "");
+
+/// A planar material of these settings, with a stand-in of few views, as many are slow to bake for a lobe.
+CookedMaterial cook_planar(const std::string& grating, const std::string& settings);
+
+/// A smooth probe: no radiance is below 0, nor does it change within a few texels.
+lighting::ProbeImage smooth_probe();
+
+/// Three key lights, from wide to narrow.
+std::vector<lighting::KeyLight> three_keys();
+
+/// A frame's light, and what references on the CPU read of it.
+struct GratingLight {
+    std::shared_ptr<const lighting::LightProbe> probe = {};
+    std::vector<lighting::KeyLight> key_lights = {};
+    lighting::ShLight sh = {};                                        ///< the whole probe
+    lighting::ShLight residual = {};                                  ///< without `key_lights`
+    std::shared_ptr<const lighting::LightSamples> probe_texels = {};  ///< the whole probe
+    std::shared_ptr<const lighting::LightSamples> texels = {};        ///< without `key_lights`
+    std::uint64_t version = 0;
+
+    render::FrameLight frame() const { return {.probe = probe, .analytic_key_lights = true, .version = version}; }
+};
+
+/// A probe with key lights added to it.
+GratingLight light_of(const lighting::ProbeImage& probe, std::vector<lighting::KeyLight> keys,
+                      std::uint64_t version = 1);
+
+/// A probe without any light.
+GratingLight black_light();
+
 /// Of the picture's maximum: 5e-4 of tables in halves, and 1.5e-3 of the kernel, whose table has more columns on the
 /// CPU. Tables of views change little from texel to texel: positions of 8 bits between them (filter_error.h) add 4e-4.
 inline constexpr double kPictureTolerance = 2e-3;
@@ -36,7 +64,11 @@ inline constexpr double kMapTolerance = 5e-4;
 /// One triangle with a grating, drawn as XYZ unless a test sets another working space.
 class GratingPicture : public rowland::test::GlTest, protected DrawnTriangle {
  protected:
-    /// Builds the scene, from the mesh and the light as they are.
+    /// The probe with the same radiance from everywhere in its reflections, and black SH if it has none.
+    static lighting::LightProbe with_even_environment(lighting::LightProbe probe, float radiance);
+
+    /// Builds the scene, from the mesh and the light as they are. While its triangle is alive, gives it another
+    /// material.
     void show(const CookedMaterial& cooked, double groove_rotation = 0.0, MapPace pace = MapPace::Whole,
               std::chrono::milliseconds map_wait = std::chrono::hours(1));
     /// Gives the triangle another material.
@@ -85,14 +117,30 @@ class GratingPicture : public rowland::test::GlTest, protected DrawnTriangle {
     }
     void expect_map_at_vertices(const CookedMaterial& cooked, const AtPoint& map_xyz, const AtPoint& map_error);
 
+    /// Draws, and expects a picture that is not dark and differs from `expected` by less than `tolerance`:
+    /// largest_difference().
+    void expect_drawn(const AtPoint& expected, const AtPoint& allowed = nullptr, double tolerance = kPictureTolerance);
+    /// The same of a map alone.
+    template <typename Map>
+    void expect_map(const Map& map) {
+        expect_drawn(map_xyz(map), map_xyz(filter_error(map)), kMapTolerance);
+    }
+    /// Of a map, and key lights over it.
+    template <typename Map>
+    void expect_map_and_lights(const CookedMaterial& cooked, const Map& map) {
+        expect_drawn(sum(map_xyz(map), key_lights(cooked)), sum(map_xyz(filter_error(map)), key_lights_error(cooked)));
+    }
+
     /// Largest difference between the picture and `expected` beyond `allowed`, over the picture's largest component.
     double largest_difference(const std::vector<glm::vec4>& pixels, const AtPoint& expected,
                               const AtPoint& allowed = nullptr);
-    /// The same of a map.
-    template <typename Map>
-    double difference_from(const Map& expected, const std::vector<glm::vec4>& pixels) {
-        return largest_difference(pixels, map_xyz(expected), map_xyz(filter_error(expected)));
-    }
+    /// The largest component of a picture.
+    static float brightest(const std::vector<glm::vec4>& pixels);
+    /// Largest difference between two pictures, over the largest component of `a`.
+    static double largest_difference(const std::vector<glm::vec4>& a, const std::vector<glm::vec4>& b);
+
+    /// The triangle's plane is seen at 0.5 degrees.
+    void look_along_the_surface();
 
     glm::dmat3 xyz_to_working_{1.0};
     std::optional<render::Renderer> renderer_;

@@ -1,29 +1,10 @@
 // Gratings on a GPU that allows little.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
-#include <array>
-#include <cstdint>
-#include <filesystem>
 #include <fstream>
-#include <functional>
-#include <map>
-#include <memory>
 #include <regex>
-#include <set>
-#include <span>
-#include <string>
-#include <utility>
-#include <vector>
 
-#include "engine/render/gpu_mesh.h"
-#include "engine/render/reflections.h"
-#include "engine/render/shader_interface.h"
-#include "engine/render/surface_programs.h"
-#include "engine/render/surface_textures.h"
-#include "engine/scene/light.h"
 #include "modules/diffraction/shaders/shader_files.h"
-#include "tests/gpu/lowered_limit.h"
 #include "tests/gpu/modules/diffraction/grating_picture.h"
 #include "tests/support/expect.h"
 #include "tests/support/files.h"
@@ -33,17 +14,47 @@
 namespace rowland::diffraction {
 namespace {
 
-using rowland::test::LoweredLimit;
 using rowland::test::message_of;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
+
+template <auto Pointer>
+using Replaced = rowland::test::ReplacedFunction<Pointer>;
+
+std::map<GLenum, std::int64_t> lowered;
+
+void APIENTRY get_integer(GLenum name, GLint* values) {
+    if (const auto limit = lowered.find(name); limit != lowered.end())
+        *values = static_cast<GLint>(limit->second);
+    else
+        Replaced<&epoxy_glGetIntegerv>::driver(name, values);
+}
+
+void APIENTRY get_long_integer(GLenum name, GLint64* values) {
+    if (const auto limit = lowered.find(name); limit != lowered.end())
+        *values = limit->second;
+    else
+        Replaced<&epoxy_glGetInteger64v>::driver(name, values);
+}
+
+/// While it lives, the driver reports other limits. One at a time.
+class LoweredLimit {
+ public:
+    LoweredLimit(std::initializer_list<std::pair<const GLenum, std::int64_t>> values) { lowered = values; }
+    ~LoweredLimit() { lowered.clear(); }
+    LoweredLimit(const LoweredLimit&) = delete;
+    LoweredLimit& operator=(const LoweredLimit&) = delete;
+
+ private:
+    Replaced<&epoxy_glGetIntegerv> integer_{"glGetIntegerv", get_integer};
+    Replaced<&epoxy_glGetInteger64v> long_integer_{"glGetInteger64v", get_long_integer};
+};
 
 class GratingLimits : public GratingPicture {
  protected:
     std::string refusal(const std::string& representation) {
         const CookedMaterial cooked = cook(kSlitCd, "{\"representation\": \"" + representation + "\"}");
-        if (!renderer_) show(cooked);
-        use(cooked);
+        show(cooked);
         return message_of([&] { draw(); }, Fault::System);
     }
 };
@@ -51,16 +62,16 @@ class GratingLimits : public GratingPicture {
 /// Three vertices: 25 coefficients, or two layers of three vectors.
 TEST_F(GratingLimits, LightOfMoreThanABufferHoldsIsRefused) {
     {
-        const LoweredLimit limit(GL_MAX_TEXTURE_BUFFER_SIZE, 74);
+        const LoweredLimit limit{{GL_MAX_TEXTURE_BUFFER_SIZE, 74}};
         EXPECT_THAT(refusal("spikes"), AllOf(HasSubstr("representation spikes on 3 vertices"), HasSubstr("75 texels"),
                                              HasSubstr("at most 74"), HasSubstr("fewer bands")));
     }
-    const LoweredLimit limit(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, 287);
+    const LoweredLimit limit{{GL_MAX_SHADER_STORAGE_BLOCK_SIZE, 287}};
     EXPECT_THAT(refusal("arc"), HasSubstr("288 bytes"));
 }
 
 TEST_F(GratingLimits, AVertexStageWithoutStorageDrawsWhatNeedsNone) {
-    const LoweredLimit limit(GL_MAX_VERTEX_SHADER_STORAGE_BLOCKS, 0);
+    const LoweredLimit limit{{GL_MAX_VERTEX_SHADER_STORAGE_BLOCKS, 0}};
     for (const char* representation : {"spikes", "arc"})
         EXPECT_THAT(refusal(representation), HasSubstr("1 storage buffers")) << representation;
     for (const char* quality :
@@ -131,7 +142,7 @@ StageUse use_of(const std::string& text) {
 
 std::vector<std::string> fragment_stages;  ///< of gratings
 void APIENTRY shader_source(GLuint shader, GLsizei count, const GLchar* const* texts, const GLint* lengths) {
-    rowland::test::ReplacedFunction<&epoxy_glShaderSource>::driver(shader, count, texts, lengths);
+    Replaced<&epoxy_glShaderSource>::driver(shader, count, texts, lengths);
     std::string source = rowland::test::whole_source(count, texts, lengths);
     GLint type = 0;
     glGetShaderiv(shader, GL_SHADER_TYPE, &type);
@@ -181,10 +192,7 @@ class LargestGrating : public GratingLimits {
         surface.alpha_mode = scene::AlphaMode::Mask;
         world_.add(entity_, std::move(surface));
         world_.add(entity_, render::ReflectsObjects{entity_});
-        lighting::LightProbe probe = *light_.probe;
-        probe.environment.layout = {.face_size = 4, .levels = 1};
-        probe.environment.halves.assign(3 * probe.environment.layout.offset(1), 0);
-        renderer_->set_probe(std::move(probe));
+        renderer_->set_probe(with_even_environment(*light_.probe, 0.0F));
         renderer_->use_key_lights(true);
         renderer_->set_effects({.ambient_occlusion = render::AmbientOcclusionSettings{},
                                 .soft_shadows = render::SoftShadowSettings{},
@@ -200,12 +208,12 @@ class LargestGrating : public GratingLimits {
 /// A driver that allows no more than OpenGL 4.5 guarantees shows the same picture: 16 samplers in a stage and 60
 /// components between two are not exceeded on any other.
 TEST_F(LargestGrating, IsDrawnByWhatOpenGlGuarantees) {
-    const rowland::test::ReplacedFunction<&epoxy_glShaderSource> recorded("glShaderSource", shader_source);
+    const Replaced<&epoxy_glShaderSource> recorded("glShaderSource", shader_source);
     const std::vector<glm::vec4> unlimited = draw_on(crooked_triangle());
     EXPECT_GT(unlimited[DrawnTriangle::kSize * DrawnTriangle::kSize / 2 + DrawnTriangle::kSize / 2].y, 0.01F);
     fragment_stages.clear();
-    const LoweredLimit limits(std::map<GLenum, std::int64_t>{{GL_MAX_TEXTURE_IMAGE_UNITS, render::kGuaranteedSamplers},
-                                                             {GL_MAX_VARYING_COMPONENTS, 60}});
+    const LoweredLimit limits{{GL_MAX_TEXTURE_IMAGE_UNITS, render::kGuaranteedSamplers},
+                              {GL_MAX_VARYING_COMPONENTS, 60}};
     EXPECT_EQ(draw_on(crooked_triangle()), unlimited);
     draw_on(flat_triangle());
     ASSERT_GE(fragment_stages.size(), 2U);

@@ -1,18 +1,9 @@
 // The paper's shader against the CPU's evaluation of the same table, also where numbers break: grazing views, views
 // from below, light from nothing to 10⁶.
-#include <gtest/gtest.h>
 
-#include <algorithm>
-#include <cmath>
 #include <glm/geometric.hpp>
-#include <numbers>
 #include <random>
-#include <span>
-#include <string>
-#include <vector>
 
-#include "engine/math/spherical_harmonics.h"
-#include "engine/render/gpu_mesh.h"
 #include "tests/gpu/modules/diffraction/grating_picture.h"
 
 namespace rowland::diffraction {
@@ -35,12 +26,10 @@ TEST_F(Spikes, PixelsEqualTheCpuForEveryMappingStorageAndNumberOfSpikes) {
     for (const auto& row : rows) {
         const CookedMaterial cooked =
             cook(row.grating, std::string(R"({"representation": "spikes")") + row.settings + "}");
-        if (!renderer_) show(cooked, -0.6);
-        use(cooked);
-        EXPECT_LT(largest_difference(draw(), table_xyz<SpikeTable>(cooked, light_.sh)), kPictureTolerance)
-            << row.grating << row.settings;
+        SCOPED_TRACE(std::string(row.grating) + row.settings);
+        show(cooked, -0.6);
+        expect_drawn(table_xyz<SpikeTable>(cooked, light_.sh));
         EXPECT_GT(compared_, 500);
-        EXPECT_GT(brightest_, 0.01);
     }
 }
 
@@ -49,7 +38,7 @@ TEST_F(Spikes, KeyLightsAreShadedApartWhereTheMaterialAsksForThem) {
     const CookedMaterial cooked = cook(kSlitCd, R"({"representation": "spikes", "key_lights": 64})");
     show(cooked, 0.5);
     const auto residual = table_xyz<SpikeTable>(cooked, light_.residual);
-    EXPECT_LT(largest_difference(draw(), sum(residual, key_lights(cooked))), kPictureTolerance);
+    expect_drawn(sum(residual, key_lights(cooked)));
     EXPECT_GT(largest_difference(draw(), residual), 0.1);
 }
 
@@ -96,9 +85,8 @@ class SpikeExtremes : public GratingPicture {
     /// XYZ at the picture's centre, on the axis of tilted_triangle().
     glm::dvec3 drawn(const CookedMaterial& cooked, double v_n, double phi) {
         mesh_ = tilted_triangle(v_n, phi);
-        if (!renderer_) show(cooked);
+        show(cooked);
         world_.add(entity_, render::make_mesh_instance(scene::Mesh(mesh_)));
-        use(cooked);
         const std::vector<glm::vec4> pixels = draw();
         for (const glm::vec4& pixel : pixels)
             EXPECT_TRUE(std::isfinite(pixel.x) && std::isfinite(pixel.y) && std::isfinite(pixel.z));

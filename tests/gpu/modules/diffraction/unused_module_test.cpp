@@ -1,32 +1,118 @@
 // What a scene does not use costs it nothing, by what the driver is told.
-#include <gtest/gtest.h>
 
-#include <glm/gtc/quaternion.hpp>
-#include <nlohmann/json.hpp>
-#include <string>
-#include <vector>
-
-#include "engine/lighting/light_probe.h"
-#include "engine/scene/light.h"
 #include "modules/diffraction/asset/cooked_material.h"
 #include "modules/diffraction/asset/material.h"
 #include "modules/diffraction/module.h"
-#include "tests/gpu/modules/diffraction/upload_log.h"
 #include "tests/gpu/render_test.h"
+#include "tests/support/replaced_function.h"
 
 namespace rowland::diffraction {
 namespace {
 
+/// What goes to the GPU, as the driver is told.
 struct Told {
-    std::size_t bytes = 0;
+    std::size_t bytes = 0;  ///< of buffers and texels
     std::vector<std::string> shaders;
+};
+Told* log = nullptr;
+
+std::size_t components(GLenum format) {
+    switch (format) {
+        case GL_RED:
+            return 1;
+        case GL_RG:
+            return 2;
+        case GL_RGB:
+            return 3;
+        case GL_RGBA:
+            return 4;
+        default:
+            check_failed(__FILE__, __LINE__, "a pixel format that is counted");
+    }
+}
+
+std::size_t texel_bytes(GLenum format, GLenum type) {
+    switch (type) {
+        case GL_UNSIGNED_BYTE:
+            return components(format);
+        case GL_UNSIGNED_SHORT:
+        case GL_HALF_FLOAT:
+            return 2 * components(format);
+        case GL_FLOAT:
+            return 4 * components(format);
+        default:
+            check_failed(__FILE__, __LINE__, "a pixel type that is counted");
+    }
+}
+
+void count_texels(GLsizei width, GLsizei height, GLsizei depth, GLenum format, GLenum type) {
+    log->bytes += static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * static_cast<std::size_t>(depth) *
+                  texel_bytes(format, type);
+}
+
+void APIENTRY buffer_storage(GLuint buffer, GLsizeiptr size, const void* data, GLbitfield flags) {
+    log->bytes += static_cast<std::size_t>(size);
+    rowland::test::ReplacedFunction<&epoxy_glNamedBufferStorage>::driver(buffer, size, data, flags);
+}
+
+void APIENTRY buffer_part(GLuint buffer, GLintptr offset, GLsizeiptr size, const void* data) {
+    log->bytes += static_cast<std::size_t>(size);
+    rowland::test::ReplacedFunction<&epoxy_glNamedBufferSubData>::driver(buffer, offset, size, data);
+}
+
+void APIENTRY line(GLuint texture, GLint level, GLint x, GLsizei width, GLenum format, GLenum type,
+                   const void* texels) {
+    count_texels(width, 1, 1, format, type);
+    rowland::test::ReplacedFunction<&epoxy_glTextureSubImage1D>::driver(texture, level, x, width, format, type, texels);
+}
+
+void APIENTRY plane(GLuint texture, GLint level, GLint x, GLint y, GLsizei width, GLsizei height, GLenum format,
+                    GLenum type, const void* texels) {
+    count_texels(width, height, 1, format, type);
+    rowland::test::ReplacedFunction<&epoxy_glTextureSubImage2D>::driver(texture, level, x, y, width, height, format,
+                                                                        type, texels);
+}
+
+void APIENTRY volume(GLuint texture, GLint level, GLint x, GLint y, GLint z, GLsizei width, GLsizei height,
+                     GLsizei depth, GLenum format, GLenum type, const void* texels) {
+    count_texels(width, height, depth, format, type);
+    rowland::test::ReplacedFunction<&epoxy_glTextureSubImage3D>::driver(texture, level, x, y, z, width, height, depth,
+                                                                        format, type, texels);
+}
+
+void APIENTRY record_source(GLuint shader, GLsizei count, const GLchar* const* texts, const GLint* lengths) {
+    log->shaders.push_back(rowland::test::whole_source(count, texts, lengths));
+    rowland::test::ReplacedFunction<&epoxy_glShaderSource>::driver(shader, count, texts, lengths);
+}
+
+/// While it lives, stands between the program and OpenGL. One at a time, on a thread whose context is current.
+class UploadLog {
+ public:
+    UploadLog() { log = &told_; }
+    ~UploadLog() { log = nullptr; }
+    UploadLog(const UploadLog&) = delete;
+    UploadLog& operator=(const UploadLog&) = delete;
+
+    const Told& told() const { return told_; }
+
+ private:
+    template <auto Pointer>
+    using Replaced = rowland::test::ReplacedFunction<Pointer>;
+
+    Told told_;
+    Replaced<&epoxy_glNamedBufferStorage> storage_{"glNamedBufferStorage", buffer_storage};
+    Replaced<&epoxy_glNamedBufferSubData> part_{"glNamedBufferSubData", buffer_part};
+    Replaced<&epoxy_glTextureSubImage1D> line_{"glTextureSubImage1D", line};
+    Replaced<&epoxy_glTextureSubImage2D> plane_{"glTextureSubImage2D", plane};
+    Replaced<&epoxy_glTextureSubImage3D> volume_{"glTextureSubImage3D", volume};
+    Replaced<&epoxy_glShaderSource> source_{"glShaderSource", record_source};
 };
 
 class UnusedModule : public rowland::test::RenderTest {
  protected:
     /// What three frames of a lit square tell the driver. `material`: a grating's file, or none for a plain surface.
     Told frames(bool with_module, const char* material = nullptr) {
-        const rowland::test::UploadLog log;
+        const UploadLog uploads;
         render::Renderer renderer(glm::dmat3(1.0));
         if (with_module) register_module(renderer);
         renderer.use_key_lights(true);
@@ -52,7 +138,7 @@ class UnusedModule : public rowland::test::RenderTest {
             scene::update_world_matrices(world);
             renderer.render(world, camera_, target_);
         }
-        return {log.bytes(), log.shaders()};
+        return uploads.told();
     }
 };
 
