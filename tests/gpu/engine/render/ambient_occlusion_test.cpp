@@ -1,8 +1,6 @@
 // Ambient occlusion and contact shadows against rays.
 #include <algorithm>
 
-#include "engine/gpu/pass_times.h"
-#include "engine/scene/light.h"
 #include "tests/gpu/engine/render/traced_scene.h"
 
 namespace rowland::render {

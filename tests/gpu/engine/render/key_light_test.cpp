@@ -1,15 +1,7 @@
 // Key lights as analytic lights: against the lobe on the CPU, against brute force over the whole probe, and against
 // the same frame without them.
-#include <array>
-#include <cmath>
-#include <numbers>
-#include <span>
 
-#include "engine/lighting/key_lights.h"
-#include "engine/lighting/light_samples.h"
 #include "engine/lighting/procedural_probe.h"
-#include "engine/math/spherical_harmonics.h"
-#include "engine/scene/light.h"
 #include "tests/gpu/render_test.h"
 
 namespace rowland::render {

@@ -1,12 +1,7 @@
 // Directional, point and spot lights against the formula on the CPU.
-#include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "engine/math/spherical_harmonics.h"
-#include "engine/render/scene_lights.h"
-#include "engine/scene/light.h"
 #include "tests/gpu/render_test.h"
-#include "tests/unit/engine/scene/punctual_attenuation.h"
 
 namespace rowland::render {
 namespace {
@@ -24,6 +19,18 @@ class LightsTest : public test::RenderTest {
         world_.add(entity, scene::WorldMatrix{matrix});
         return entity;
     }
+    /// The factor on `intensity`/distance²: glTF's range window max(0, 1 − (distance/range)⁴) times a spot's cone
+    /// (KHR_lights_punctual). `cos_axis`: cosine between the axis and the direction to the point.
+    static float attenuation(const scene::PunctualLight& light, float distance_m, float cos_axis) {
+        const float window =
+            light.range_m > 0.0F ? std::max(0.0F, 1.0F - std::pow(distance_m / light.range_m, 4.0F)) : 1.0F;
+        if (!light.spot) return window;
+        // The lower bound is that of the extension's reference code.
+        const float cos_inner = std::cos(light.inner_cone);
+        const float cos_outer = std::cos(light.outer_cone);
+        const float cone = std::clamp((cos_axis - cos_outer) / std::max(0.001F, cos_inner - cos_outer), 0.0F, 1.0F);
+        return window * cone * cone;
+    }
     /// Radiance of a position on the square under unit irradiance from a direction.
     static glm::dvec3 reflected(const glm::vec3& position, const glm::dvec3& toward) {
         const glm::dvec3 v = glm::normalize(glm::dvec3(0.0, 0.0, kEye) - glm::dvec3(position));
@@ -35,7 +42,7 @@ class LightsTest : public test::RenderTest {
         const glm::vec3 to_light = from - position;
         const float distance = glm::length(to_light);
         const float cosine = -glm::dot(axis, to_light) / distance;
-        const double reaches = scene::attenuation(light, distance, cosine) / (distance * distance);
+        const double reaches = attenuation(light, distance, cosine) / (distance * distance);
         return reflected(position, glm::dvec3(to_light)) * reaches * glm::dvec3(light.intensity);
     }
     /// Floats through a dozen operations, and GGX's peak.

@@ -1,13 +1,7 @@
 // What mirrors show of the plane they stand on, against rays.
 #include <algorithm>
-#include <glm/geometric.hpp>
 
-#include "engine/lighting/light_samples.h"
-#include "engine/render/light_maps.h"
-#include "engine/render/reflections.h"
-#include "engine/scene/light.h"
 #include "tests/gpu/engine/render/traced_scene.h"
-#include "tests/gpu/render_test.h"
 
 namespace rowland::render {
 namespace {

@@ -3,10 +3,6 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <random>
 
-#include "engine/core/file.h"
-#include "engine/gpu/pass_times.h"
-#include "engine/scene/animation.h"
-#include "engine/scene/light.h"
 #include "tests/gpu/render_test.h"
 #include "tests/support/files.h"
 

@@ -1,15 +1,8 @@
 #include "engine/render/scene_instance.h"
 
 #include <glm/gtc/matrix_transform.hpp>
-#include <nlohmann/json.hpp>
-#include <span>
 
-#include "engine/core/error.h"
-#include "engine/render/reflections.h"
 #include "engine/render/surface_textures.h"
-#include "engine/scene/animation.h"
-#include "engine/scene/light.h"
-#include "engine/scene/transform.h"
 #include "tests/gpu/render_test.h"
 #include "tests/support/expect.h"
 

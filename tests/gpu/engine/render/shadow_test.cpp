@@ -1,13 +1,7 @@
 // The shadow of a directional light: that it is there, at the right position, and nowhere else.
 #include <algorithm>
-#include <cmath>
-#include <glm/gtc/matrix_transform.hpp>
 
-#include "engine/scene/animation.h"
-#include "engine/scene/light.h"
-#include "engine/scene/mesh_recipe.h"
 #include "tests/gpu/engine/render/traced_scene.h"
-#include "tests/gpu/render_test.h"
 
 namespace rowland::render {
 namespace {

@@ -1,10 +1,6 @@
 // Material types that take part in the base's specular reflection, and two types on one entity.
-#include <span>
-#include <utility>
 
 #include "engine/render/scene_instance.h"
-#include "engine/scene/light.h"
-#include "engine/scene/transform.h"
 #include "tests/gpu/render_test.h"
 #include "tests/support/expect.h"
 

@@ -1,12 +1,9 @@
 // What a surface's maps, colours and modes do, pixel by pixel.
 #include <algorithm>
-#include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 #include <random>
 
-#include "engine/lighting/environment_map.h"
 #include "engine/render/surface_textures.h"
-#include "engine/scene/light.h"
 #include "tests/gpu/render_test.h"
 #include "tests/gpu/wide_halves.h"
 
@@ -261,13 +258,6 @@ TEST_F(LitSurfaceTest, TheBackOfADoubleSidedSurfaceIsLitAsAFront) {
                 kTolerance);
     // Both mirrored and turned, the back is still the back.
     world_.get<scene::WorldMatrix>(entity).matrix = glm::scale(turned, {-1.0F, 1.0F, 1.0F});
-    expect_near(at(draw(), 0.1F, 0.2F), lit(position_of(0.1F, 0.2F), kToward, {0.0F, 0.0F, 1.0F}, 0.0, 0.7),
-                kTolerance);
-}
-
-TEST_F(LitSurfaceTest, AMirroredObjectShowsItsFront) {
-    add(square(), {.base_colour = glm::vec3(0.5F), .roughness = 0.7F},
-        glm::scale(glm::mat4(1.0F), {-1.0F, 1.0F, 1.0F}));
     expect_near(at(draw(), 0.1F, 0.2F), lit(position_of(0.1F, 0.2F), kToward, {0.0F, 0.0F, 1.0F}, 0.0, 0.7),
                 kTolerance);
 }

@@ -1,12 +1,7 @@
 #pragma once
 
-#include <cmath>
-#include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 #include <limits>
-#include <numbers>
-#include <optional>
-#include <vector>
 
 #include "engine/scene/mesh_recipe.h"
 #include "tests/gpu/render_test.h"

@@ -1,8 +1,6 @@
 // What marks of use do to a surface, against their formulas.
-#include <cmath>
 
 #include "engine/render/surface_textures.h"
-#include "engine/scene/light.h"
 #include "tests/gpu/render_test.h"
 
 namespace rowland::render {

@@ -1,8 +1,5 @@
 #include "engine/scene/animation.h"
 
-#include <gtest/gtest.h>
-
-#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
@@ -10,7 +7,6 @@
 #include <numbers>
 
 #include "engine/scene/mesh_recipe.h"
-#include "engine/scene/transform.h"
 #include "tests/unit/engine/scene/mesh_sanity.h"
 
 namespace rowland::scene {

@@ -1,11 +1,8 @@
 #include "engine/scene/camera.h"
 
-#include <gtest/gtest.h>
-
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
-#include <numbers>
 #include <random>
 
 #include "tests/support/expect.h"

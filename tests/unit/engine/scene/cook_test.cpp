@@ -1,14 +1,10 @@
 #include "engine/scene/cook.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
-#include "engine/core/error.h"
-#include "engine/core/file.h"
 #include "engine/core/json_reader.h"
 #include "engine/scene/gltf_import.h"
 #include "tests/support/expect.h"
-#include "tests/support/files.h"
 #include "tests/support/folder_test.h"
 
 namespace rowland::scene {

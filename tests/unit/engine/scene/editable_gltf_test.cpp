@@ -1,17 +1,11 @@
 #include "engine/scene/editable_gltf.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cstring>
-#include <filesystem>
-#include <string>
 
-#include "engine/core/error.h"
-#include "engine/core/file.h"
 #include "engine/scene/gltf_import.h"
-#include "engine/scene/gltf_source.h"
 #include "tests/support/expect.h"
 #include "tests/support/files.h"
 

@@ -1,12 +1,9 @@
 #include "engine/scene/glb_write.h"
 
-#include <gtest/gtest.h>
-
 #include <cmath>
 #include <cstring>
 #include <glm/geometric.hpp>
 
-#include "engine/scene/gltf_import.h"
 #include "engine/scene/mesh_recipe.h"
 #include "tests/unit/engine/scene/mesh_sanity.h"
 

@@ -1,6 +1,5 @@
 // Animations and skins of glTF files.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <limits>
 

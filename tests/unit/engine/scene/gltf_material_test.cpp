@@ -1,12 +1,8 @@
 // Materials, textures and images of glTF files.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <array>
 
 #include "engine/core/error.h"
 #include "engine/core/file.h"
-#include "engine/image/byte_image.h"
 #include "tests/support/files.h"
 #include "tests/unit/engine/image/image_bytes.h"
 #include "tests/unit/engine/scene/hand_written_gltf.h"

@@ -1,13 +1,10 @@
 // Nodes of glTF files, their cameras and lights.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
-#include <cmath>
 #include <limits>
 
 #include "engine/scene/gltf_parts.h"
 #include "tests/unit/engine/scene/hand_written_gltf.h"
-#include "tests/unit/engine/scene/punctual_attenuation.h"
 
 namespace rowland::scene {
 namespace {
@@ -93,10 +90,15 @@ TEST(GltfCamera, AnOrthographicCameraIsIgnoredWithAWarning) {
     EXPECT_THAT(scene.warnings, testing::ElementsAre(HasSubstr("orthographic")));
 }
 
-TEST(GltfCamera, CamerasOfHiddenNodesAreLeftOut) {
+TEST(GltfCamera, CamerasAndLightsOfHiddenNodesAreLeftOut) {
     json file = perspective({{"yfov", 0.5}, {"znear", 0.25}});
+    file["extensionsUsed"] = {"KHR_lights_punctual"};
+    file["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "point"}}};
+    file["nodes"][0]["extensions"]["KHR_lights_punctual"]["light"] = 0;
+    EXPECT_EQ(load(file).lights.size(), 1U);
     file["scenes"][0]["nodes"] = json::array();
     EXPECT_TRUE(load(file).cameras.empty());
+    EXPECT_TRUE(load(file).lights.empty());
 }
 
 TEST(GltfCamera, BadLensesAreRefused) {
@@ -218,29 +220,6 @@ TEST(GltfLight, BadLightsAreRefused) {
     EXPECT_THAT(error_of(file), HasSubstr("/nodes/0/extensions/KHR_lights_punctual/light"));
     file.erase("extensions");
     EXPECT_THAT(error_of(file), HasSubstr("the file has no lights"));
-}
-
-TEST(GltfLight, LightsOfHiddenNodesAreLeftOut) {
-    json file = lit({{"type", "point"}});
-    file["scenes"][0]["nodes"] = json::array();
-    EXPECT_TRUE(load(file).lights.empty());
-}
-
-TEST(PunctualLight, RangeWindowEndsTheLight) {
-    const PunctualLight light{.range_m = 2.0F};
-    EXPECT_EQ(attenuation(light, 0.0F, -1.0F), 1.0F);
-    EXPECT_FLOAT_EQ(attenuation(light, 1.0F, -1.0F), 0.9375F);  // 1 - (1/2)^4
-    EXPECT_EQ(attenuation(light, 2.0F, -1.0F), 0.0F);
-    EXPECT_EQ(attenuation(light, 50.0F, -1.0F), 0.0F);
-}
-
-TEST(PunctualLight, SpotFadesBetweenItsCones) {
-    const PunctualLight light{.spot = true, .inner_cone = 0.3F, .outer_cone = 0.6F};
-    EXPECT_EQ(attenuation(light, 1.0F, std::cos(0.2F)), 1.0F);
-    EXPECT_EQ(attenuation(light, 1.0F, std::cos(0.7F)), 0.0F);
-    const float middle = 0.5F * (std::cos(0.3F) + std::cos(0.6F));
-    EXPECT_NEAR(attenuation(light, 1.0F, middle), 0.25F, 1e-6F);  // half of the way, squared; rounding
-    EXPECT_EQ(attenuation(light, 1.0F, -1.0F), 0.0F);
 }
 
 }  // namespace

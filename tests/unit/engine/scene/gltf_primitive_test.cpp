@@ -1,7 +1,6 @@
 #include "engine/scene/gltf_import.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <limits>
 

@@ -1,10 +1,6 @@
 #include "tests/unit/engine/scene/hand_written_gltf.h"
 
-#include <array>
-#include <map>
-
 #include "engine/core/error.h"
-#include "engine/scene/gltf_source.h"
 
 namespace rowland::scene::test {
 

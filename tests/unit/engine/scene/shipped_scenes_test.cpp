@@ -1,12 +1,10 @@
 // The scenes that the demo shows, content/scenes/*.glb.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <algorithm>
 #include <glm/common.hpp>
 #include <set>
 
-#include "engine/scene/gltf_import.h"
 #include "tests/support/files.h"
 #include "tests/unit/engine/scene/mesh_sanity.h"
 

@@ -2,10 +2,8 @@
 #include "engine/scene/wear.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <cmath>
-#include <glm/vec4.hpp>
 
 #include "tests/unit/engine/image/image_bytes.h"
 #include "tests/unit/engine/scene/hand_written_gltf.h"
