@@ -1,13 +1,9 @@
 #include "engine/lighting/cook.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
-#include "engine/core/error.h"
-#include "engine/core/file.h"
 #include "engine/core/json_reader.h"
 #include "engine/image/exr.h"
-#include "engine/lighting/light_probe.h"
 #include "tests/support/files.h"
 #include "tests/support/light.h"
 

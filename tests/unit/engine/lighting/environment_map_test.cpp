@@ -1,8 +1,6 @@
-#include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "engine/image/image.h"
 #include "engine/lighting/environment_map.h"
 #include "tests/support/files.h"
 #include "tests/unit/engine/lighting/made_probes.h"

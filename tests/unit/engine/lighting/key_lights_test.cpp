@@ -2,13 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <glm/geometric.hpp>
-#include <numbers>
 
-#include "engine/image/image.h"
 #include "engine/math/quadrature.h"
-#include "engine/math/spherical_harmonics.h"
 #include "tests/unit/engine/lighting/made_probes.h"
 
 namespace rowland::lighting {

@@ -1,9 +1,6 @@
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <glm/geometric.hpp>
-#include <numbers>
-#include <vector>
 
 #include "engine/lighting/environment_map.h"
 #include "engine/lighting/light_metric.h"

@@ -1,15 +1,11 @@
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cstring>
 
-#include "engine/core/error.h"
-#include "engine/core/parallel.h"
-#include "engine/lighting/light_probe.h"
-#include "engine/math/spherical_harmonics.h"
 #include "tests/support/expect.h"
 #include "tests/support/light.h"
+#include "tests/support/threads.h"
 #include "tests/unit/engine/lighting/made_probes.h"
 
 namespace rowland::lighting {
@@ -44,33 +40,22 @@ const LightProbe& small_probe() {
 TEST(LightProbe, SurvivesSerialisation) {
     const LightProbe& probe = small_probe();
     const LightProbe read = deserialise(serialise(probe), "a.probe");
-    EXPECT_EQ(read.sh.bands, 6);
+    EXPECT_EQ(serialise(read), serialise(probe));
     EXPECT_EQ(read.sh.coefficients, probe.sh.coefficients);
-    EXPECT_EQ(probe.illuminant.name, "lamp.csv");
     EXPECT_EQ(read.illuminant.name, "lamp.csv");
-    EXPECT_EQ(read.illuminant.power.wavelengths_nm(), lamp().power.wavelengths_nm());
     EXPECT_EQ(read.illuminant.power.values(), lamp().power.values());
     EXPECT_EQ(read.illuminant.power(400.0), 0.0);
     ASSERT_GE(probe.key_lights.size(), 1u);
     ASSERT_EQ(read.key_lights.size(), probe.key_lights.size());
-    for (std::size_t i = 0; i < read.key_lights.size(); ++i) {
-        EXPECT_EQ(read.key_lights[i].direction, probe.key_lights[i].direction);
-        EXPECT_EQ(read.key_lights[i].flux, probe.key_lights[i].flux);
-        EXPECT_EQ(read.key_lights[i].concentration, probe.key_lights[i].concentration);
-    }
-    EXPECT_EQ(probe.light.face_size, 8);
+    EXPECT_EQ(read.key_lights.back().concentration, probe.key_lights.back().concentration);
     EXPECT_EQ(read.light.face_size, 8);
-    EXPECT_EQ(read.light.scale, probe.light.scale);
-    EXPECT_EQ(read.light.halves, probe.light.halves);
     EXPECT_EQ(read.light.positions, probe.light.positions);
-    EXPECT_EQ(read.environment.layout, probe.environment.layout);
-    EXPECT_EQ(read.environment.scale, probe.environment.scale);
     EXPECT_EQ(read.environment.halves, probe.environment.halves);
     ASSERT_TRUE(read.dome);
-    EXPECT_EQ(read.dome->height_m, 1.5);
     EXPECT_EQ(read.dome->radius_m, 6.0);
     EXPECT_GT(probe.report.negative, 0u);
     EXPECT_EQ(read.report.negative, probe.report.negative);
+    // Computed from what is read.
     EXPECT_EQ(read.ambient.coefficients, probe.ambient.coefficients);
     EXPECT_EQ(read.ambient.window.window, probe.ambient.window.window);
     EXPECT_EQ(read.ambient.window.damping, probe.ambient.window.damping);
@@ -87,13 +72,7 @@ TEST(LightProbe, ADomeBelowItsCameraIsRefused) {
 }
 
 TEST(LightProbe, BytesDoNotDependOnTheNumberOfThreads) {
-    std::vector<std::vector<std::byte>> bytes;
-    for (const unsigned threads : {1u, 2u, 5u}) {
-        const ThreadLimit limit(threads);
-        bytes.push_back(serialise(build_small_probe()));
-    }
-    EXPECT_EQ(bytes[0], bytes[1]);
-    EXPECT_EQ(bytes[0], bytes[2]);
+    rowland::test::expect_same_on_any_threads([] { return serialise(build_small_probe()); });
 }
 
 TEST(LightProbe, StoredShIsRawRadiance) {

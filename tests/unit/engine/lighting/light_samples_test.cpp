@@ -1,9 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
-#include <cmath>
 #include <glm/geometric.hpp>
-#include <numbers>
 
 #include "engine/core/parallel.h"
 #include "engine/lighting/light_samples.h"

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <functional>
 
 #include "editor/lobe_nodes/fit_lobe_nodes.h"
 #include "editor/lobe_nodes/gauss_nodes.h"

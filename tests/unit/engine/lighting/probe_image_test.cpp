@@ -1,13 +1,8 @@
-#include <gtest/gtest.h>
 
-#include <cmath>
-#include <numbers>
 
 #include "engine/core/error.h"
-#include "engine/image/image.h"
 #include "engine/lighting/light_probe.h"
 #include "engine/lighting/light_samples.h"
-#include "engine/lighting/probe_image.h"
 #include "engine/lighting/sh_light.h"
 #include "tests/support/files.h"
 #include "tests/unit/engine/lighting/made_probes.h"
@@ -197,22 +192,6 @@ TEST(ProbeImage, AngularSolidAngleIsTheIntegralOverTheTexel) {
                     << size << ": " << column << ", " << row;
             }
     }
-}
-
-TEST(ProbeImage, TexelsThatAreNoLightAreCountedAndBlack) {
-    image::Image image{2, 1, {{1, std::nanf(""), 2}, {-3, 4, std::numeric_limits<float>::infinity()}}};
-    image.texels.emplace_back(0, -1, 5);
-    image.texels.emplace_back(1, 2, 3);
-    image.height = 2;
-    const ProbeImage probe(image, Mapping::Equirectangular);
-    EXPECT_EQ(probe.report().nan, 1u);
-    EXPECT_EQ(probe.report().infinite, 1u);
-    EXPECT_EQ(probe.report().negative, 1u);
-    EXPECT_EQ(probe.report().total(), 3u);
-    EXPECT_EQ(probe.image().at(0, 0), glm::vec3(1, 0, 2));
-    EXPECT_EQ(probe.image().at(1, 0), glm::vec3(0, 4, 0));
-    EXPECT_EQ(probe.image().at(0, 1), glm::vec3(0, 0, 5));
-    EXPECT_EQ(probe.image().at(1, 1), glm::vec3(1, 2, 3));
 }
 
 TEST(ProbeImage, BadShapesAndMappingsAreRefused) {

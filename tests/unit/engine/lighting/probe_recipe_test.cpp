@@ -1,11 +1,8 @@
 #include "engine/lighting/probe_recipe.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
-#include "engine/colour/illuminant.h"
 #include "engine/core/error.h"
-#include "engine/core/json_reader.h"
 
 namespace rowland::lighting {
 namespace {

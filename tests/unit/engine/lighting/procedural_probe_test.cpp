@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "engine/lighting/probe_image.h"
 #include "engine/lighting/procedural_probe.h"
 #include "tests/unit/engine/lighting/made_probes.h"
 

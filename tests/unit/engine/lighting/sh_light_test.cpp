@@ -1,10 +1,6 @@
-#include <gtest/gtest.h>
 
 #include <map>
-#include <vector>
 
-#include "engine/image/image.h"
-#include "engine/lighting/probe_image.h"
 #include "engine/lighting/sh_light.h"
 #include "engine/math/spherical_harmonics.h"
 #include "tests/support/csv.h"

@@ -2,13 +2,8 @@
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
-#include <filesystem>
-
-#include "engine/core/file.h"
 #include "engine/core/json_reader.h"
-#include "engine/core/parallel.h"
 #include "engine/lighting/probe_recipe.h"
 #include "engine/scene/imported_scene.h"
 #include "modules/diffraction/asset/cooked_material.h"
@@ -18,6 +13,7 @@
 #include "modules/diffraction/reference/reference.h"
 #include "tests/support/expect.h"
 #include "tests/support/files.h"
+#include "tests/support/threads.h"
 
 namespace rowland::diffraction {
 namespace {
@@ -108,13 +104,7 @@ TEST_F(BudgetMaterial, CookingAndCheckingDependOnTheProbe) {
 }
 
 TEST_F(BudgetMaterial, HasTheSameBytesWithAnyNumberOfThreads) {
-    std::vector<std::byte> one;
-    {
-        const ThreadLimit limit(1);
-        one = cook();
-    }
-    const ThreadLimit limit(2);
-    EXPECT_EQ(one, cook());
+    rowland::test::expect_same_on_any_threads([&] { return cook(); });
 }
 
 TEST_F(BudgetMaterial, AMissingProbeIsRefusedAndStillADependency) {

@@ -1,19 +1,12 @@
 #include "modules/diffraction/asset/cooked_material.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
-#include <algorithm>
-#include <cstring>
-#include <filesystem>
-#include <limits>
-
-#include "engine/core/error.h"
 #include "engine/core/file.h"
-#include "engine/core/parallel.h"
 #include "modules/diffraction/cook.h"
 #include "tests/support/expect.h"
 #include "tests/support/files.h"
+#include "tests/support/threads.h"
 
 namespace rowland::diffraction {
 namespace {
@@ -184,14 +177,7 @@ TEST(CookedMaterial, TheDescriptionCountsWhatShadingCosts) {
 }
 
 TEST(CookedMaterial, BytesDoNotDependOnTheNumberOfThreads) {
-    std::vector<std::byte> one;
-    {
-        const ThreadLimit limit(1);
-        one = cook(small_material());
-    }
-    const ThreadLimit limit(2);
-    EXPECT_EQ(one, cook(small_material()));
-    EXPECT_EQ(one, cook(small_material()));
+    rowland::test::expect_same_on_any_threads([] { return cook(small_material()); });
 }
 
 TEST(CookedMaterial, EveryTruncationAndTrailingBytesAreRefused) {

@@ -1,10 +1,6 @@
 #include "modules/diffraction/asset/material.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <filesystem>
-#include <string>
 
 #include "engine/core/file.h"
 #include "tests/support/expect.h"

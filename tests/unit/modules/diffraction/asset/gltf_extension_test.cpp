@@ -1,12 +1,8 @@
 #include "modules/diffraction/asset/gltf_extension.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <string>
 
 #include "engine/core/file.h"
-#include "engine/core/json_reader.h"
 #include "tests/support/expect.h"
 #include "tests/support/files.h"
 

@@ -2,12 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <numbers>
-
-#include "engine/colour/illuminant.h"
-#include "engine/colour/spectrum.h"
-#include "modules/diffraction/model/grating.h"
-
 namespace rowland::diffraction {
 namespace {
 

@@ -1,7 +1,6 @@
 #include "modules/diffraction/asset/material.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include "engine/core/file.h"
 #include "modules/diffraction/asset/cooked_material.h"

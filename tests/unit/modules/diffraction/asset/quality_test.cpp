@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include "modules/diffraction/asset/cooked_material.h"
 #include "tests/support/expect.h"

@@ -1,12 +1,10 @@
 // What the scalar profiles miss against rigorous tables of the same groove: measured, printed and bounded.
 #include <fmt/format.h>
-#include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <numbers>
-#include <string>
 #include <vector>
 
 #include "engine/colour/spectrum.h"

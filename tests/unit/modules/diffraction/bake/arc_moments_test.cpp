@@ -1,12 +1,9 @@
-#include <gtest/gtest.h>
 
 #include <fmt/format.h>
 #include <cmath>
 #include <glm/vec3.hpp>
 #include <numbers>
-#include <optional>
 #include <utility>
-#include <vector>
 
 #include "engine/math/spherical_harmonics.h"
 #include "modules/diffraction/bake/arc_moments.h"

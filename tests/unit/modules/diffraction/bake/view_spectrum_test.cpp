@@ -1,10 +1,8 @@
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <glm/matrix.hpp>
 #include <numbers>
 
-#include "engine/colour/spectrum.h"
 #include "modules/diffraction/bake/view_spectrum.h"
 #include "modules/diffraction/model/colour_kernel.h"
 #include "tests/unit/modules/diffraction/gratings.h"

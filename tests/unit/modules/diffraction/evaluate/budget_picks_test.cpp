@@ -1,12 +1,9 @@
 // What a budget picks for a compact disc keeps its promises.
 #include <fmt/format.h>
-#include <gtest/gtest.h>
 
 #include <algorithm>
 #include <array>
-#include <filesystem>
 #include <glm/geometric.hpp>
-#include <optional>
 #include <random>
 
 #include "engine/core/error.h"

@@ -1,16 +1,9 @@
 #include "modules/diffraction/evaluate/budget.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <cstdlib>
-#include <set>
 
-#include "engine/core/json_reader.h"
-#include "engine/core/parallel.h"
-#include "engine/image/image.h"
-#include "modules/diffraction/asset/material.h"
-#include "modules/diffraction/evaluate/error_measure.h"
 #include "modules/diffraction/evaluate/point_shader.h"
 #include "modules/diffraction/reference/reference.h"
 #include "tests/support/expect.h"

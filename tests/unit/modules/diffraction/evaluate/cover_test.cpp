@@ -1,10 +1,7 @@
 // Every representation under a cover (PHYSICS §10) against the reference: no worse than without the cover. The slit's
 // efficiencies do not depend on the cover, so all that differs is T(s_n) inside the representation and T(v_n) outside.
-#include <gtest/gtest.h>
 
 #include <algorithm>
-#include <optional>
-#include <string>
 #include <vector>
 
 #include "engine/image/image.h"

@@ -1,5 +1,4 @@
 // A lamp of one line stays that line's colour through all that is baked.
-#include <gtest/gtest.h>
 
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>

@@ -2,18 +2,12 @@
 #include "modules/diffraction/evaluate/point_shader.h"
 
 #include <fmt/format.h>
-#include <gtest/gtest.h>
 
-#include <algorithm>
-#include <cmath>
 #include <glm/geometric.hpp>
 #include <sstream>
-#include <utility>
 
 #include "engine/asset/container.h"
 #include "engine/core/file.h"
-#include "engine/image/image.h"
-#include "modules/diffraction/asset/cooked_material.h"
 #include "tests/support/files.h"
 #include "tests/unit/editor/trade/trade_run.h"
 

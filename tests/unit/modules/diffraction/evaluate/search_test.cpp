@@ -2,10 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-
-#include "modules/diffraction/asset/material.h"
-#include "modules/diffraction/evaluate/error_measure.h"
 #include "modules/diffraction/evaluate/point_shader.h"
 #include "modules/diffraction/reference/reference.h"
 

@@ -1,12 +1,8 @@
 // Every representation of a sheet that transmits (PHYSICS §12) against what a reflecting grating of the same
 // efficiencies shows under the light that is mirrored in the sheet's plane.
-#include <gtest/gtest.h>
 
-#include <cmath>
 #include <glm/geometric.hpp>
 #include <numbers>
-#include <string>
-#include <vector>
 
 #include "modules/diffraction/asset/cooked_material.h"
 #include "modules/diffraction/asset/quality.h"

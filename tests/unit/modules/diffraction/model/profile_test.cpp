@@ -1,5 +1,4 @@
 // A profile is described once. The schema and the page, which are written by hand, agree with the descriptors.
-#include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
@@ -8,8 +7,6 @@
 #include <numbers>
 #include <random>
 #include <set>
-#include <string>
-#include <vector>
 
 #include "engine/core/file.h"
 #include "modules/diffraction/model/brdf.h"
@@ -80,32 +77,6 @@ TEST(Profile, PhaseGratingOrdersSumToOne) {
     EXPECT_NEAR(sum_of_orders(SinusoidalProfile{150.0}, 40), 1.0, 1e-12);
 }
 
-/// No setting makes more light than falls in: 400 random ones a profile. Sums of squares of closed forms: rounding.
-TEST(Profile, OrdersNeverSumToMoreThanOne) {
-    std::mt19937 generator(11);
-    std::uniform_real_distribution<double> unit(0.001, 0.999);
-    const std::vector<std::function<Profile()>> draws = {
-        [&] { return SlitProfile{kCdPitch_nm * unit(generator)}; },
-        [&] {
-            return LamellarProfile{unit(generator), 1500.0 * unit(generator)};
-        },
-        [&] { return SinusoidalProfile{1500.0 * unit(generator)}; },
-        [&] { return BlazedProfile{1500.0 * unit(generator)}; }};
-    for (const auto& draw : draws) {
-        double largest = 0.0;
-        for (int i = 0; i < 400; ++i) {
-            const Profile profile = draw();
-            const double wavelength_nm = 380.0 + 400.0 * unit(generator);
-            double sum = 0.0;
-            for (int order = -200; order <= 200; ++order)
-                sum += profile_efficiency(profile, kCdPitch_nm, order, wavelength_nm);
-            largest = std::max(largest, sum);
-        }
-        EXPECT_LE(largest, 1.0 + 1e-12) << draw().index();
-        EXPECT_GT(largest, 0.99) << draw().index();
-    }
-}
-
 TEST(Profile, FullWidthSlitIsAMirror) {
     const SlitProfile mirror{kCdPitch_nm};
     EXPECT_EQ(profile_efficiency(mirror, kCdPitch_nm, 0, kWavelength_nm), 1.0);
@@ -130,16 +101,6 @@ TEST(Profile, BlazeFavoursPositiveOrders) {
     const BlazedProfile blazed{0.5 * kWavelength_nm};  // one wavelength of path: all light in order 1
     EXPECT_NEAR(profile_efficiency(blazed, kCdPitch_nm, 1, kWavelength_nm), 1.0, 1e-15);
     EXPECT_NEAR(profile_efficiency(blazed, kCdPitch_nm, -1, kWavelength_nm), 0.0, 1e-15);
-}
-
-/// A groove's spectrum at the orders is their efficiency, by definition; both are closed forms.
-TEST(Profile, GrooveSpectrumAtWholeOrdersIsTheEfficiency) {
-    for (const Profile& profile : {Profile{SlitProfile{500.0}}, Profile{LamellarProfile{0.35, 130.0}},
-                                   Profile{SinusoidalProfile{150.0}}, Profile{BlazedProfile{260.0}}})
-        for (int order = -4; order <= 4; ++order)
-            EXPECT_NEAR(groove_spectrum(profile, kCdPitch_nm, order, kWavelength_nm),
-                        profile_efficiency(profile, kCdPitch_nm, order, kWavelength_nm), 1e-14)
-                << "profile " << profile.index() << " order " << order;
 }
 
 /// The slow reference: |∫ exp(iφ(y)) exp(−2πi x y) dy|² by the midpoint rule, 1e5 nodes (error ~1e-9 smooth, ~1e-5 at
@@ -291,19 +252,6 @@ TEST(EfficiencyTable, ATableThatEndsBeforeTheCutOffIsHeldUpToIt) {
     table.slices[0].efficiencies.resize(6);
     EXPECT_EQ(at(table, 2, 499.0), 0.16);
     EXPECT_EQ(at(table, 2, 501.0), 0.0);
-}
-
-/// Between 480 and 500 nm what holds for ±2 (0.32) and what is interpolated for 0 (up to 0.7) pass 1.
-TEST(EfficiencyTable, OrdersNeverSumToMoreThanOne) {
-    const EfficiencyTable table = three_rows();
-    double largest = 0.0;
-    for (double wavelength_nm = 380.0; wavelength_nm <= 780.0; wavelength_nm += 0.1) {
-        double sum = 0.0;
-        for (const int order : table.orders) sum += at(table, order, wavelength_nm);
-        largest = std::max(largest, sum);
-    }
-    EXPECT_NEAR(largest, 1.0, kRounding);
-    EXPECT_LT(at(table, 2, 499.9), 0.16);
 }
 
 /// Two incidences, one row each: linear in the angle.

@@ -2,20 +2,14 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
-#include <cmath>
 #include <glm/matrix.hpp>
 #include <numbers>
-#include <span>
 
-#include "engine/colour/spectrum.h"
 #include "engine/core/check.h"
 #include "engine/core/error.h"
 #include "engine/core/parallel.h"
-#include "engine/math/spherical_harmonics.h"
 #include "modules/diffraction/model/brdf.h"
-#include "modules/diffraction/model/grating.h"
 
 namespace rowland::diffraction {
 

@@ -1,19 +1,13 @@
 #include "tests/unit/modules/diffraction/reference/brute_force.h"
 
-#include <gtest/gtest.h>
-
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
-#include "engine/colour/spectrum.h"
 #include "engine/core/error.h"
 #include "engine/core/parallel.h"
 #include "modules/diffraction/bake/arc_moments.h"
-#include "modules/diffraction/model/grating.h"
 #include "modules/diffraction/reference/reference.h"
 #include "tests/support/files.h"
 #include "tests/unit/modules/diffraction/gratings.h"

@@ -1,7 +1,4 @@
-#include <gtest/gtest.h>
 
-#include <cmath>
-#include <vector>
 
 #include "modules/diffraction/reference/reference.h"
 #include "tests/support/files.h"

@@ -1,15 +1,10 @@
 // Fewer than fifty grooves: the reference against the pointwise BRDF, and how it meets N → ∞.
 #include <fmt/format.h>
-#include <gtest/gtest.h>
 
-#include <cmath>
 #include <glm/geometric.hpp>
 #include <numbers>
-#include <vector>
 
-#include "engine/colour/spectrum.h"
 #include "engine/math/quadrature.h"
-#include "engine/math/spherical_harmonics.h"
 #include "modules/diffraction/model/brdf.h"
 #include "modules/diffraction/reference/reference.h"
 #include "tests/support/files.h"

@@ -1,6 +1,5 @@
 #include "tests/unit/modules/diffraction/reference/json_oracle.h"
 
-#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "engine/core/json_reader.h"

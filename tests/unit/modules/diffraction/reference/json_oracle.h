@@ -1,9 +1,5 @@
 #pragma once
 
-#include <filesystem>
-#include <string>
-#include <vector>
-
 #include "tests/unit/modules/diffraction/reference/oracle.h"
 
 namespace rowland::diffraction::test {

@@ -1,14 +1,10 @@
 // The ground truth of lattices.
 #include <fmt/format.h>
-#include <gtest/gtest.h>
 
-#include <cmath>
 #include <glm/geometric.hpp>
 
 #include "engine/image/image.h"
-#include "modules/diffraction/model/grating.h"
 #include "modules/diffraction/reference/reference.h"
-#include "tests/support/csv.h"
 #include "tests/support/files.h"
 #include "tests/unit/modules/diffraction/reference/json_oracle.h"
 

@@ -1,6 +1,5 @@
 #include "tests/unit/modules/diffraction/reference/oracle.h"
 
-#include <cmath>
 #include <glm/geometric.hpp>
 #include <sstream>
 #include <stdexcept>

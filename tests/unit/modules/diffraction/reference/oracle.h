@@ -1,10 +1,7 @@
 #pragma once
 
-#include <filesystem>
 #include <glm/vec3.hpp>
 #include <optional>
-#include <string>
-#include <vector>
 
 #include "engine/lighting/sh_light.h"
 #include "modules/diffraction/model/grating.h"

@@ -1,19 +1,13 @@
 #include "modules/diffraction/reference/reference.h"
 
 #include <fmt/format.h>
-#include <gtest/gtest.h>
 
-#include <algorithm>
-#include <cmath>
 #include <glm/geometric.hpp>
 #include <numbers>
 
-#include "engine/colour/spectrum.h"
-#include "engine/core/parallel.h"
-#include "engine/image/image.h"
 #include "modules/diffraction/model/brdf.h"
-#include "tests/support/csv.h"
 #include "tests/support/files.h"
+#include "tests/support/threads.h"
 #include "tests/unit/modules/diffraction/gratings.h"
 #include "tests/unit/modules/diffraction/reference/json_oracle.h"
 
@@ -182,18 +176,6 @@ TEST(Reference, ViewBelowTheHorizonIsBlack) {
     EXPECT_EQ(found[0], glm::dvec3(0.0));
 }
 
-TEST(Reference, SubwavelengthPitchIsExactlyBlack) {
-    for (const double grooves : {1500.0, 10.0}) {
-        Grating grating = compact_disc();
-        grating.pitch_nm = 150.0;
-        grating.profile = SlitProfile{75.0};
-        grating.grooves = grooves;
-        const auto found =
-            reference_radiance(grating, uniform_light(glm::dvec3(1.0)), colour::LightSpectra(), std::span(&kFrame, 1));
-        EXPECT_EQ(found[0], glm::dvec3(0.0)) << grooves;
-    }
-}
-
 TEST(Reference, GrazingViewsStayFinite) {
     std::vector<ShadingPoint> frames;
     for (const double v_n : {1e-12, 1e-6, 0.01}) {
@@ -217,11 +199,8 @@ TEST(Reference, DoesNotDependOnTheNumberOfThreads) {
     ROWLAND_TEST_DATA(path, "oracle/radiance_bandlimited.csv");
     const lighting::ShLight light = test::read_sh_light(light_path);
     const OracleCase one = test::read_cases(path).front();
-    const auto run = [&](unsigned threads) {
-        const ThreadLimit limit(threads);
-        return reference_radiance(one.grating, light, colour::LightSpectra(), one.frames);
-    };
-    EXPECT_EQ(run(1), run(2));
+    rowland::test::expect_same_on_any_threads(
+        [&] { return reference_radiance(one.grating, light, colour::LightSpectra(), one.frames); });
 }
 
 /// A coarse grating's hundreds of orders: finite, and no more than the light that falls in.

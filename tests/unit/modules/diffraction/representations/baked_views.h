@@ -1,15 +1,10 @@
 #pragma once
 
 #include <gtest/gtest.h>
-#include <cstddef>
 #include <glm/geometric.hpp>
-#include <span>
-#include <vector>
 
 #include "engine/core/byte_stream.h"
 #include "engine/core/error.h"
-#include "engine/math/spherical_harmonics.h"
-#include "modules/diffraction/model/grating.h"
 #include "tests/unit/modules/diffraction/reference/oracle.h"
 
 namespace rowland::diffraction::test {
@@ -41,18 +36,21 @@ std::vector<glm::dvec3> evaluated(const Table& table, std::span<const TangentVie
     return result;
 }
 
-/// Bytes as `write` writes them, and back: what is read writes the same bytes; every shortened copy is refused; and a
+/// Bytes as `write` writes them.
+template <typename Table>
+std::vector<std::byte> written(const Table& table) {
+    ByteWriter writer;
+    write(table, writer);
+    return writer.take();
+}
+
+/// The bytes of a table, and back: what is read writes the same bytes; every shortened copy is refused; and a
 /// copy with a byte of its first 200 changed is refused or read, but never more than that.
 template <typename Table, typename Read>
 void expect_sound_bytes(const Table& table, const Read& read) {
-    const auto bytes_of = [&](const Table& one) {
-        ByteWriter writer;
-        write(one, writer);
-        return writer.take();
-    };
-    const std::vector<std::byte> bytes = bytes_of(table);
+    const std::vector<std::byte> bytes = written(table);
     ByteReader reader(bytes, "table");
-    EXPECT_EQ(bytes_of(read(reader)), bytes);
+    EXPECT_EQ(written(read(reader)), bytes);
     EXPECT_EQ(reader.remaining(), 0U);
     for (std::size_t size = 0; size < bytes.size(); size += size < 200 ? 1 : 211) {
         ByteReader shortened(std::span<const std::byte>(bytes).first(size), "table");

@@ -1,22 +1,14 @@
-#include <gtest/gtest.h>
 
 #include <fmt/format.h>
-#include <array>
-#include <cmath>
-#include <cstddef>
 #include <glm/geometric.hpp>
-#include <map>
 #include <numbers>
-#include <utility>
-#include <vector>
 
-#include "engine/core/parallel.h"
 #include "engine/lighting/environment_map.h"
 #include "modules/diffraction/representations/circle/circle.h"
 #include "modules/diffraction/representations/circle/circle_map.h"
 #include "modules/diffraction/representations/planar/planar_map.h"
-#include "tests/support/csv.h"
 #include "tests/support/files.h"
+#include "tests/support/threads.h"
 #include "tests/unit/modules/diffraction/representations/probe_maps.h"
 
 namespace rowland::diffraction {
@@ -171,26 +163,17 @@ TEST(CircleMap, CostsWhatItsShaderReadsAndComputes) {
 TEST(CircleMap, DoesNotDependOnTheThreads) {
     const lighting::LightSamples texels = broad_light();
     const KernelTable kernel = tabulate(ColourKernel(test::compact_disc(), colour::LightSpectra()));
-    const auto run = [&](unsigned threads) {
-        const ThreadLimit limit(threads);
+    rowland::test::expect_same_on_any_threads([&] {
         const CircleMap map = fill_circle_map(texels, kernel, 1600.0, {8, 16, 14});
         return std::pair(map.terms.xyz, map.remainder.xyz);
-    };
-    EXPECT_EQ(run(1), run(2));
+    });
 }
 
 void matches_oracle(const test::OracleProbe& probe) {
-    ROWLAND_TEST_DATA(frames_path, "oracle/frames_sphere.csv");
-    ROWLAND_TEST_DATA(oracle_path, std::string("oracle/radiance_sphere_") + probe.name + ".csv");
-    ROWLAND_TEST_DATA(probe_path, std::string("probes/") + probe.file);
-    const auto frames = test::read_frames(rowland::test::read_csv(frames_path));
-    const test::SplitProbe light = test::split(probe_path, probe.mapping, 16);
-    const KernelTable kernel = tabulate(ColourKernel(test::compact_disc(), colour::LightSpectra()));
-    const CircleMap map = fill_circle_map(light.texels, kernel, 1600.0);
-    const double error = relative_rms(test::radiance(map, kernel, light.keys, frames),
-                                      test::read_xyz(rowland::test::read_csv(oracle_path)));
-    ::testing::Test::RecordProperty("error", fmt::format("{:.3g}", error));
-    EXPECT_LT(error, probe.tolerance) << probe.name;
+    test::matches_oracle(probe, "sphere",
+                         [](const lighting::LightSamples& texels, const KernelTable& kernel, const glm::dvec3&) {
+                             return fill_circle_map(texels, kernel, 1600.0);
+                         });
 }
 
 /// The default map and 16 key lights. The tolerances are about a sixth above the measured errors.
@@ -207,18 +190,6 @@ TEST(CircleMap, MatchesRoyalEsplanade) {
     matches_oracle({"royal_esplanade", "royal_esplanade_1k.hdr", lighting::Mapping::Equirectangular, 0.012});
 }
 
-/// A sample in each texel of a cube map.
-lighting::LightSamples uniform_light(int face_size) {
-    lighting::LightSamples samples;
-    for (int face = 0; face < 6; ++face)
-        for (int row = 0; row < face_size; ++row)
-            for (int column = 0; column < face_size; ++column)
-                samples.push_back(glm::normalize(lighting::cube_direction(face, (2 * column + 1.0) / face_size - 1.0,
-                                                                          (2 * row + 1.0) / face_size - 1.0)),
-                                  glm::dvec3(lighting::cube_solid_angle(face_size, column, row)));
-    return samples;
-}
-
 glm::dvec3 flux_of(const ImageLight& light, std::size_t image) {
     glm::dvec3 flux;
     for (int c = 0; c < 3; ++c) flux[c] = light.flux[2 * static_cast<std::size_t>(c) + image / 4][image % 4];
@@ -229,7 +200,7 @@ TEST(CircleLight, LightOfAnyResolutionIsOneSampleForEachCell) {
     for (const int cells : {kCircleLightCells, 40}) {
         const auto side = static_cast<std::size_t>(cells) + 2;
         for (const int face_size : {128, 256})
-            EXPECT_LE(circle_light(uniform_light(face_size), cells).size(), 6 * side * side);
+            EXPECT_LE(circle_light(test::even_light(face_size), cells).size(), 6 * side * side);
     }
 }
 
@@ -261,7 +232,7 @@ TEST(CircleLight, LampsKeepTheirMeanDirectionAndSpreadAlike) {
 
 /// The residual of a probe less its key lights is negative in places.
 TEST(CircleLight, NegativeFluxIsKept) {
-    lighting::LightSamples light = uniform_light(256);
+    lighting::LightSamples light = test::even_light(256);
     light.push_back(glm::dvec3(0.0, 1.0, 0.0), glm::dvec3(-3.0));
     glm::dvec3 sum(0.0);
     glm::dvec3 of_cells(0.0);

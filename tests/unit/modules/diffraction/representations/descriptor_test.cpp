@@ -1,7 +1,4 @@
 // A representation is described once. The page, which is written by hand, agrees with the descriptors.
-#include <gtest/gtest.h>
-
-#include <string>
 
 #include "engine/core/file.h"
 #include "modules/diffraction/representations/representation.h"

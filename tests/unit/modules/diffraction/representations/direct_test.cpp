@@ -3,16 +3,13 @@
 
 #include <fmt/format.h>
 #include <array>
-#include <cmath>
 #include <functional>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 #include <numbers>
-#include <string>
 #include <utility>
 
 #include "engine/math/quadrature.h"
-#include "modules/diffraction/model/grating.h"
 #include "modules/diffraction/reference/reference.h"
 #include "modules/diffraction/representations/direct/direct.h"
 #include "tests/unit/modules/diffraction/gratings.h"

@@ -1,26 +1,16 @@
 // Maps of lattices against the reference.
-#include <gtest/gtest.h>
 
 #include <fmt/format.h>
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <filesystem>
 #include <glm/geometric.hpp>
 #include <glm/gtx/component_wise.hpp>
 #include <numbers>
-#include <span>
-#include <string>
-#include <variant>
 
-#include "engine/core/parallel.h"
 #include "engine/lighting/procedural_probe.h"
 #include "modules/diffraction/asset/material.h"
 #include "modules/diffraction/reference/reference.h"
 #include "modules/diffraction/representations/planar/lobe_map.h"
-#include "modules/diffraction/representations/point_shader.h"
-#include "tests/support/csv.h"
 #include "tests/support/files.h"
+#include "tests/support/threads.h"
 #include "tests/unit/modules/diffraction/representations/probe_maps.h"
 
 namespace rowland::diffraction {
@@ -68,106 +58,14 @@ lighting::ShLight smooth_light() {
                              {0.4, 0.3, 0.1}}};
 }
 
+lighting::LightSamples smooth_texels() {
+    return EvaluationLight(smooth_light(), math::SphericalWindow::None).texels();
+}
+
 Grating with_lobe(const GrooveLobe& lobe) {
     Grating grating = test::compact_disc();
     grating.lobe = lobe;
     return grating;
-}
-
-/// The slow sum is the reference's quadrature. Light without detail: the rest is the map's steps of .03 at the
-/// horizon's edge, 1.1 % for the lobe that is narrower than they are (measured), .4 % and less for the others.
-TEST(LobeMap, EqualsTheReferenceUnderSmoothLight) {
-    Grating blazed = with_lobe(GaussianLobe{0.1});
-    blazed.profile = BlazedProfile{.depth_nm = 280.0};
-    blazed.orders = {0, 1, 2};
-    Grating long_pits = with_lobe(PitsLobe{.length_nm = 3000.0, .coherent = 0.5});
-    long_pits.pitch_nm = 740.0;
-    const lighting::ShLight light = smooth_light();
-    const lighting::LightSamples texels = EvaluationLight(light, math::SphericalWindow::None).texels();
-    const glm::dvec3 normal = glm::normalize(glm::dvec3(0.3, 0.8, -0.5));
-    const std::vector<ShadingPoint> points = points_of(normal);
-    const struct {
-        const char* name;
-        Grating grating;
-    } cases[] = {{"sigma 1", with_lobe(GaussianLobe{1.0})},
-                 {"sigma 0.2", with_lobe(GaussianLobe{0.2})},
-                 {"sigma 0.02", with_lobe(GaussianLobe{0.02})},
-                 {"pits", with_lobe(PitsLobe{})},
-                 {"incoherent pits", with_lobe(PitsLobe{.coherent = 0.0})},
-                 {"long pits, fine pitch", long_pits},
-                 {"blazed", blazed}};
-    for (const auto& one : cases) {
-        const LobeMap map = lobe_map(one.grating, texels, normal, {.azimuths = 32, .views = {.g = 64, .h = 64}});
-        EXPECT_EQ(map.half_turn, std::string(one.name) != "blazed");
-        const double error =
-            relative_rms(samples(map, points), reference_radiance(one.grating, light, colour::LightSpectra(), points));
-        RecordProperty(one.name, fmt::format("{:.3g}", error));
-        EXPECT_LT(error, 1.2e-2) << one.name;
-    }
-}
-
-/// The narrowest lobe under a doorway of a few texels: .7 % measured, 2 % is the goal. The coarse map, which is shown
-/// for as long as an object turns: 10 % measured.
-TEST(LobeMap, MatchesEnnisThroughANarrowLobe) {
-    ROWLAND_TEST_DATA(frames_path, "oracle/frames_tilted_cd.csv");
-    ROWLAND_TEST_DATA(probe_path, "probes/ennis_probulator.hdr");
-    const auto frames = test::read_frames(rowland::test::read_csv(frames_path));
-    const lighting::ProbeImage probe(image::load_image(probe_path), lighting::Mapping::Equirectangular);
-    const Grating grating = with_lobe(GaussianLobe{0.02});
-    const auto expected = reference_radiance(grating, IncidentLight(probe), colour::LightSpectra(), frames);
-    const lighting::LightSamples texels = lighting::light_samples(probe);
-    const auto error = [&](const LobeMapSize& size) {
-        const double found = relative_rms(samples(lobe_map(grating, texels, frames[0].normal, size), frames), expected);
-        RecordProperty(fmt::format("views_{}", size.views.g), fmt::format("{:.3g}", found));
-        return found;
-    };
-    EXPECT_LT(error({}), 0.02);
-    EXPECT_LT(error(kCoarseLobeMap), 0.15);
-}
-
-/// What is computed for the half turn alone is what the whole turn gives.
-TEST(LobeMap, TheHalfTurnIsTheWholeTurn) {
-    const lighting::LightSamples texels = EvaluationLight(smooth_light(), math::SphericalWindow::None).texels();
-    DiffractionPattern pattern = diffraction_pattern(with_lobe(PitsLobe{}), colour::LightSpectra());
-    ASSERT_TRUE(pattern.even);
-    const glm::dvec3 normal(0, 0, 1);
-    const LobeMapViews views{.g = 16, .h = 24};
-    const LobeMap half = fill_lobe_map(texels, LobeSpectrum(pattern, views), normal, 16);
-    pattern.even = false;
-    const LobeMap whole = fill_lobe_map(texels, LobeSpectrum(pattern, views), normal, 16);
-    EXPECT_EQ(half.values.size(), 9U * 16U * 24U);
-    EXPECT_EQ(whole.values.size(), 16U * 16U * 24U);
-    const std::vector<ShadingPoint> points = points_of(normal);
-    EXPECT_LT(relative_rms(samples(half, points), samples(whole, points)), 1e-5);
-}
-
-TEST(LobeMap, FillingWhatPointsSeeGivesTheSame) {
-    const lighting::LightSamples texels = EvaluationLight(smooth_light(), math::SphericalWindow::None).texels();
-    DiffractionPattern pattern = diffraction_pattern(with_lobe(PitsLobe{}), colour::LightSpectra());
-    const glm::dvec3 normal(0, 0, 1);
-    for (const bool even : {true, false}) {
-        pattern.even = even;
-        const LobeSpectrum spectrum(pattern, {.g = 16, .h = 24});
-        const LobeMap all = fill_lobe_map(texels, spectrum, normal, 16);
-        const auto of_points = lobe_map_of_points(texels, spectrum, normal, 16);
-        for (const ShadingPoint& point : points_of(normal)) EXPECT_EQ(of_points(point), sample(all, point));
-    }
-}
-
-TEST(LobeMap, AnyNumberOfThreadsGivesTheSameMap) {
-    const lighting::LightSamples texels = EvaluationLight(smooth_light(), math::SphericalWindow::None).texels();
-    const auto filled = [&](unsigned threads) {
-        const ThreadLimit limit(threads);
-        return lobe_map(with_lobe(PitsLobe{}), texels, {0, 1, 0}, {.azimuths = 16, .views = {.g = 16, .h = 16}});
-    };
-    EXPECT_EQ(filled(1).values, filled(2).values);
-}
-
-TEST(LobeMap, AViewBelowTheHorizonIsBlack) {
-    const LobeMap map =
-        lobe_map(with_lobe(GaussianLobe{0.2}), EvaluationLight(smooth_light(), math::SphericalWindow::None).texels(),
-                 {0, 0, 1}, {.azimuths = 8, .views = {.g = 8, .h = 8}});
-    EXPECT_EQ(sample(map, {.view = {0.1, 0.2, -0.3}, .normal = {0, 0, 1}, .grating = {1, 0, 0}}), glm::dvec3(0.0));
 }
 
 Grating lattice_of(const LatticeProfile& profile, const glm::dvec2& a_nm, const glm::dvec2& b_nm, int orders) {
@@ -204,30 +102,100 @@ double map_error(const Grating& grating, const IncidentLight& light, const light
     return relative_rms(found, reference_radiance(grating, light, colour::LightSpectra(), frames));
 }
 
-TEST(LatticeMapUnderSmoothLight, EqualsTheReference) {
-    lighting::ShLight light{.bands = 3, .coefficients = {}};
-    for (int i = 0; i < 9; ++i) light.coefficients.emplace_back(4.0 / (1 + i), 0.9 - 0.1 * i, 0.5 + 0.1 * i);
-    const lighting::LightSamples texels = EvaluationLight(light, math::SphericalWindow::None).texels();
-    std::vector<ShadingPoint> frames;
-    const PlaneAxes axes = plane_axes({0.3, 0.8, -0.5});
-    for (int i = 0; i < 20; ++i)
-        frames.push_back({.view = std::cos(0.07 * i) * axes.n +
-                                  std::sin(0.07 * i) * (std::cos(1.1 * i) * axes.e1 + std::sin(1.1 * i) * axes.e2),
-                          .normal = axes.n,
-                          .grating = std::cos(2.4 * i) * axes.e1 + std::sin(2.4 * i) * axes.e2});
+/// The slow sum is the reference's quadrature. Light without detail: the rest is the map's steps of .03 at the
+/// horizon's edge, 1.1 % for the lobe that is narrower than they are (measured), .4 % and less for the other lobes. Of
+/// a lattice: steps of .025.
+TEST(LobeMap, EqualsTheReferenceUnderSmoothLight) {
+    Grating blazed = with_lobe(GaussianLobe{0.1});
+    blazed.profile = BlazedProfile{.depth_nm = 280.0};
+    blazed.orders = {0, 1, 2};
+    Grating long_pits = with_lobe(PitsLobe{.length_nm = 3000.0, .coherent = 0.5});
+    long_pits.pitch_nm = 740.0;
+    const lighting::ShLight light = smooth_light();
+    const lighting::LightSamples texels = smooth_texels();
+    const glm::dvec3 normal = glm::normalize(glm::dvec3(0.3, 0.8, -0.5));
+    const std::vector<ShadingPoint> points = points_of(normal);
     Grating sheet = oblique_blaze();
     sheet.transmission = Transmission{.ior = 1.6};
-    const struct {
-        const char* name;
-        Grating grating;
-    } cases[] = {
-        {"crossed", crossed_foil()}, {"screen", screen()}, {"oblique blaze", oblique_blaze()}, {"sheet", sheet}};
-    for (const auto& one : cases) {
-        const double error =
-            map_error(one.grating, light, texels, frames, {.azimuths = 32, .views = {.g = 96, .h = 80}});
-        RecordProperty(one.name, fmt::format("{:.3g}", error));
-        EXPECT_LT(error, 0.021) << one.name;  // steps of .025 at the horizon's edge
+    const std::pair<const char*, Grating> cases[] = {{"sigma 1", with_lobe(GaussianLobe{1.0})},
+                                                     {"sigma 0.2", with_lobe(GaussianLobe{0.2})},
+                                                     {"sigma 0.02", with_lobe(GaussianLobe{0.02})},
+                                                     {"pits", with_lobe(PitsLobe{})},
+                                                     {"incoherent pits", with_lobe(PitsLobe{.coherent = 0.0})},
+                                                     {"long pits, fine pitch", long_pits},
+                                                     {"blazed", blazed},
+                                                     {"crossed", crossed_foil()},
+                                                     {"screen", screen()},
+                                                     {"oblique blaze", oblique_blaze()},
+                                                     {"sheet", sheet}};
+    const std::vector<ShadingPoint> up_to_75_degrees(points.begin(), points.end() - 2);
+    for (const auto& [name, grating] : cases) {
+        const LobeMapViews views = grating.lattice ? LobeMapViews{.g = 96, .h = 80} : LobeMapViews{.g = 64, .h = 64};
+        const double error = map_error(grating, light, texels, grating.lattice ? up_to_75_degrees : points,
+                                       {.azimuths = 32, .views = views});
+        RecordProperty(name, fmt::format("{:.3g}", error));
+        EXPECT_LT(error, grating.lattice ? 0.021 : 0.012) << name;
     }
+}
+
+/// The narrowest lobe under a doorway of a few texels: .7 % measured, 2 % is the goal. The coarse map, which is shown
+/// for as long as an object turns: 10 % measured.
+TEST(LobeMap, MatchesEnnisThroughANarrowLobe) {
+    ROWLAND_TEST_DATA(frames_path, "oracle/frames_tilted_cd.csv");
+    ROWLAND_TEST_DATA(probe_path, "probes/ennis_probulator.hdr");
+    const auto frames = test::read_frames(rowland::test::read_csv(frames_path));
+    const lighting::ProbeImage probe(image::load_image(probe_path), lighting::Mapping::Equirectangular);
+    const Grating grating = with_lobe(GaussianLobe{0.02});
+    const auto expected = reference_radiance(grating, IncidentLight(probe), colour::LightSpectra(), frames);
+    const lighting::LightSamples texels = lighting::light_samples(probe);
+    const auto error = [&](const LobeMapSize& size) {
+        const double found = relative_rms(samples(lobe_map(grating, texels, frames[0].normal, size), frames), expected);
+        RecordProperty(fmt::format("views_{}", size.views.g), fmt::format("{:.3g}", found));
+        return found;
+    };
+    EXPECT_LT(error({}), 0.02);
+    EXPECT_LT(error(kCoarseLobeMap), 0.15);
+}
+
+/// What is computed for the half turn alone is what the whole turn gives.
+TEST(LobeMap, TheHalfTurnIsTheWholeTurn) {
+    const lighting::LightSamples texels = smooth_texels();
+    DiffractionPattern pattern = diffraction_pattern(with_lobe(PitsLobe{}), colour::LightSpectra());
+    ASSERT_TRUE(pattern.even);
+    const glm::dvec3 normal(0, 0, 1);
+    const LobeMapViews views{.g = 16, .h = 24};
+    const LobeMap half = fill_lobe_map(texels, LobeSpectrum(pattern, views), normal, 16);
+    pattern.even = false;
+    const LobeMap whole = fill_lobe_map(texels, LobeSpectrum(pattern, views), normal, 16);
+    EXPECT_EQ(half.values.size(), 9U * 16U * 24U);
+    EXPECT_EQ(whole.values.size(), 16U * 16U * 24U);
+    const std::vector<ShadingPoint> points = points_of(normal);
+    EXPECT_LT(relative_rms(samples(half, points), samples(whole, points)), 1e-5);
+}
+
+TEST(LobeMap, FillingWhatPointsSeeGivesTheSame) {
+    const lighting::LightSamples texels = smooth_texels();
+    DiffractionPattern pattern = diffraction_pattern(with_lobe(PitsLobe{}), colour::LightSpectra());
+    const glm::dvec3 normal(0, 0, 1);
+    for (const bool even : {true, false}) {
+        pattern.even = even;
+        const LobeSpectrum spectrum(pattern, {.g = 16, .h = 24});
+        const LobeMap all = fill_lobe_map(texels, spectrum, normal, 16);
+        const auto of_points = lobe_map_of_points(texels, spectrum, normal, 16);
+        for (const ShadingPoint& point : points_of(normal)) EXPECT_EQ(of_points(point), sample(all, point));
+    }
+}
+
+TEST(LobeMap, AnyNumberOfThreadsGivesTheSameMap) {
+    rowland::test::expect_same_on_any_threads([texels = smooth_texels()] {
+        return lobe_map(with_lobe(PitsLobe{}), texels, {0, 1, 0}, {.azimuths = 16, .views = {.g = 16, .h = 16}}).values;
+    });
+}
+
+TEST(LobeMap, AViewBelowTheHorizonIsBlack) {
+    const LobeMap map =
+        lobe_map(with_lobe(GaussianLobe{0.2}), smooth_texels(), {0, 0, 1}, {.azimuths = 8, .views = {.g = 8, .h = 8}});
+    EXPECT_EQ(sample(map, {.view = {0.1, 0.2, -0.3}, .normal = {0, 0, 1}, .grating = {1, 0, 0}}), glm::dvec3(0.0));
 }
 
 /// Views around the orders of one lamp, a quarter of a step apart.

@@ -1,11 +1,9 @@
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <glm/geometric.hpp>
 #include <numbers>
 #include <random>
 
-#include "modules/diffraction/model/grating.h"
 #include "modules/diffraction/representations/direct/lobe_table.h"
 #include "tests/unit/modules/diffraction/gratings.h"
 

@@ -1,21 +1,14 @@
-#include <gtest/gtest.h>
 
 #include <fmt/format.h>
-#include <algorithm>
-#include <cmath>
-#include <filesystem>
 #include <glm/geometric.hpp>
 #include <glm/gtx/component_wise.hpp>
 #include <numbers>
 
-#include "engine/core/parallel.h"
-#include "engine/math/spherical_harmonics.h"
 #include "modules/diffraction/asset/material.h"
-#include "modules/diffraction/model/lobe.h"
 #include "modules/diffraction/reference/reference.h"
 #include "modules/diffraction/representations/planar/planar_map.h"
-#include "tests/support/csv.h"
 #include "tests/support/files.h"
+#include "tests/support/threads.h"
 #include "tests/unit/modules/diffraction/representations/probe_maps.h"
 
 namespace rowland::diffraction {
@@ -65,17 +58,10 @@ TEST(PlanarMap, MatchesTheBandlimitedOracle) {
 }
 
 void planar_matches_oracle(const test::OracleProbe& probe) {
-    ROWLAND_TEST_DATA(frames_path, "oracle/frames_tilted_cd.csv");
-    ROWLAND_TEST_DATA(oracle_path, std::string("oracle/radiance_tilted_cd_") + probe.name + ".csv");
-    ROWLAND_TEST_DATA(probe_path, std::string("probes/") + probe.file);
-    const auto frames = test::read_frames(rowland::test::read_csv(frames_path));
-    const test::SplitProbe light = test::split(probe_path, probe.mapping, 16);
-    const KernelTable kernel = tabulate(ColourKernel(test::compact_disc(), colour::LightSpectra()));
-    const PlanarMap map = fill_planar_map(light.texels, kernel, 1600.0, frames.front().normal, {256, 256});
-    const double error = relative_rms(test::radiance(map, kernel, light.keys, frames),
-                                      test::read_xyz(rowland::test::read_csv(oracle_path)));
-    ::testing::Test::RecordProperty("error", fmt::format("{:.3g}", error));
-    EXPECT_LT(error, probe.tolerance) << probe.name;
+    test::matches_oracle(probe, "tilted_cd",
+                         [](const lighting::LightSamples& texels, const KernelTable& kernel, const glm::dvec3& n) {
+                             return fill_planar_map(texels, kernel, 1600.0, n, {256, 256});
+                         });
 }
 
 /// A map of 256² and 16 key lights. The tolerances are the figures this representation was given to reach.
@@ -263,11 +249,7 @@ TEST(PlanarMap, AnyNumberOfThreadsGivesTheSameMap) {
     const auto texels = texels_of({.bands = 2, .coefficients = std::vector<glm::dvec3>(4, glm::dvec3(1, 2, 0.5))}, 128);
     const KernelTable kernel = tabulate(ColourKernel(test::compact_disc(), colour::LightSpectra()));
     const glm::dvec3 n = glm::normalize(glm::dvec3(0.2, 0.9, 0.4));
-    const auto filled = [&](unsigned threads) {
-        const ThreadLimit limit(threads);
-        return fill_planar_map(texels, kernel, 1600.0, n, {32, 32});
-    };
-    EXPECT_EQ(filled(1).xyz, filled(2).xyz);
+    rowland::test::expect_same_on_any_threads([&] { return fill_planar_map(texels, kernel, 1600.0, n, {32, 32}).xyz; });
 }
 
 /// Lines of half nodes along v_g and along the azimuth, through the brightest lamp's first order at 550 nm: how far a

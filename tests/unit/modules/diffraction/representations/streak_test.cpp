@@ -1,20 +1,13 @@
-#include <gtest/gtest.h>
 
-#include <cmath>
-#include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
-#include <span>
-#include <string>
-#include <utility>
 
 #include "engine/image/image.h"
-#include "engine/lighting/environment_map.h"
 #include "modules/diffraction/model/colour_kernel.h"
 #include "modules/diffraction/reference/reference.h"
 #include "modules/diffraction/representations/streak/streak.h"
-#include "tests/support/csv.h"
 #include "tests/support/files.h"
 #include "tests/unit/modules/diffraction/representations/baked_views.h"
+#include "tests/unit/modules/diffraction/representations/probe_maps.h"
 
 namespace rowland::diffraction {
 namespace {
@@ -35,19 +28,6 @@ Grating narrow_disc(double sigma) {
     grating.profile = SlitProfile{800.0};
     grating.lobe = GaussianLobe{sigma};
     return grating;
-}
-
-/// Even light of radiance 1 in all channels, as texels.
-lighting::LightSamples even_light() {
-    lighting::LightSamples light;
-    constexpr int kFace = 64;
-    for (int face = 0; face < 6; ++face)
-        for (int row = 0; row < kFace; ++row)
-            for (int column = 0; column < kFace; ++column)
-                light.push_back(glm::normalize(lighting::cube_direction(face, (2.0 * column + 1.0) / kFace - 1.0,
-                                                                        (2.0 * row + 1.0) / kFace - 1.0)),
-                                glm::dvec3(lighting::cube_solid_angle(kFace, column, row)));
-    return light;
 }
 
 const glm::dmat3 kWorldAxes(1.0);
@@ -86,7 +66,7 @@ TEST(Streak, MatchesTheReferenceUnderARealProbe) {
 /// integrates. The fraction counts as linear in 1 − s_g² where the horizon cuts the lobe: 13 % found
 /// where it leaves half of it.
 TEST(Streak, UnderEvenLightIsWhatIsAboveTheHorizon) {
-    const lighting::ShLight light{1, {glm::dvec3(2.0 * std::sqrt(3.14159265358979323846))}};
+    const lighting::ShLight light{1, {glm::dvec3(2.0 * std::sqrt(std::numbers::pi))}};
     for (const glm::dvec3& v : {glm::dvec3(0.1, 0.2, 0.9), glm::dvec3(0.8, -0.1, 0.6), glm::dvec3(-0.3, 0.93, 0.2)}) {
         const ShadingPoint frame{.view = v, .normal = {0, 0, 1}, .grating = {1, 0, 0}};
         for (const double sigma : {0.03, 0.1}) {
@@ -140,7 +120,7 @@ TEST(Streak, PitsAreAStreakAndASmoothRest) {
     EXPECT_EQ(streak.sigma, kCoherentSigma);
     const auto rest = incoherent_part(grating);
     ASSERT_TRUE(rest.has_value());
-    const lighting::ShLight light{1, {glm::dvec3(2.0 * std::sqrt(3.14159265358979323846))}};
+    const lighting::ShLight light{1, {glm::dvec3(2.0 * std::sqrt(std::numbers::pi))}};
     const ShadingPoint frame{.view = {0.3, 0.2, 0.9}, .normal = {0, 0, 1}, .grating = {1, 0, 0}};
     const auto one = std::span(&frame, 1);
     const glm::dvec3 whole = reference_radiance(grating, light, colour::LightSpectra(), one)[0];
@@ -196,7 +176,7 @@ TEST(Streak, HasSoundBytes) {
 
 /// Even light stays even, in both charts and on every level.
 TEST(StreakMap, EvenLightStaysEven) {
-    const StreakMap map = fill_streak_map(even_light(), {.side = 32, .directions = 4, .length = 0.3});
+    const StreakMap map = fill_streak_map(test::even_light(64), {.side = 32, .directions = 4, .length = 0.3});
     for (int i = 0; i < 200; ++i) {
         const double z = 1.0 - (i + 0.5) / 100.0;
         const glm::dvec3 s(std::sqrt(1.0 - z * z) * std::cos(2.4 * i), z, std::sqrt(1.0 - z * z) * std::sin(2.4 * i));

@@ -1,13 +1,9 @@
 // Tables of covered gratings hold T(s_n); the caller multiplies with T(v_n) (PHYSICS §10).
 // Tables of lattices over light as spherical harmonics.
-#include <gtest/gtest.h>
 
 #include <fmt/format.h>
-#include <cmath>
-#include <glm/geometric.hpp>
 
 #include "modules/diffraction/bake/view_spectrum.h"
-#include "modules/diffraction/model/grating.h"
 #include "modules/diffraction/reference/reference.h"
 #include "modules/diffraction/representations/arc/arc_table.h"
 #include "modules/diffraction/representations/spikes/spikes.h"

@@ -2,11 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <numeric>
 
 #include "engine/colour/colour_space.h"
-#include "modules/diffraction/model/grating.h"
 
 namespace rowland::diffraction {
 namespace {
