@@ -1,13 +1,9 @@
 #include "tests/gpu/call_counts.h"
 
-#include <epoxy/gl.h>
-
 #include <cstddef>
 #include <memory>
-#include <utility>
 #include <vector>
 
-#include "engine/core/check.h"
 #include "tests/support/replaced_function.h"
 
 namespace rowland::test {

@@ -4,9 +4,6 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
-#include <memory>
-#include <string>
-#include <vector>
 
 #include "engine/colour/colour_space.h"
 #include "engine/lighting/light_probe.h"

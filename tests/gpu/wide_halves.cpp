@@ -1,7 +1,5 @@
 #include "tests/gpu/wide_halves.h"
 
-#include <epoxy/gl.h>
-
 #include <glm/gtc/packing.hpp>
 #include <optional>
 

@@ -1,10 +1,7 @@
 #include "engine/gpu/pipeline_state.h"
 
-#include <array>
-#include <optional>
 #include <random>
 
-#include "engine/gpu/buffer.h"
 #include "tests/gpu/call_counts.h"
 #include "tests/gpu/gl_test.h"
 

@@ -1,8 +1,4 @@
-#include <epoxy/gl.h>
-#include <array>
-#include <vector>
 
-#include "engine/gpu/buffer.h"
 #include "engine/gpu/pipeline_state.h"
 #include "tests/gpu/call_counts.h"
 #include "tests/gpu/gl_test.h"

@@ -1,11 +1,6 @@
-#include <epoxy/gl.h>
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <algorithm>
-#include <string>
 
-#include "engine/gpu/context.h"
-#include "engine/platform/gl_context.h"
 #include "tests/gpu/gl_test.h"
 #include "tests/support/expect.h"
 

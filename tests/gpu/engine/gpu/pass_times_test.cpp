@@ -1,4 +1,3 @@
-#include <epoxy/gl.h>
 
 #include <algorithm>
 

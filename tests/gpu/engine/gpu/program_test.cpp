@@ -1,11 +1,7 @@
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
-#include <array>
 
 #include "engine/core/error.h"
 #include "engine/core/file.h"
-#include "engine/gpu/program.h"
-#include "engine/gpu/shader_library.h"
 #include "tests/gpu/gl_test.h"
 #include "tests/support/files.h"
 

@@ -1,11 +1,9 @@
 #include "engine/platform/gl_context.h"
 
-#include <epoxy/gl.h>
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <cstdlib>
-#include <optional>
 
 #include "engine/gpu/pipeline_state.h"
 #include "tests/gpu/gl_test.h"

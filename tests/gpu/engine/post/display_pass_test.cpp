@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <locale>
 #include <random>
 
 #include "engine/core/file.h"

@@ -6,9 +6,6 @@
 #include <limits>
 #include <random>
 
-#include "engine/post/auto_exposure.h"
-#include "engine/post/bloom.h"
-#include "engine/post/vignette.h"
 #include "tests/gpu/engine/post/post_test.h"
 #include "tests/gpu/wide_halves.h"
 #include "tests/unit/engine/post/cpu_effects.h"

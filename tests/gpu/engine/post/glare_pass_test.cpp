@@ -6,9 +6,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
-#include <memory>
 #include <numbers>
-#include <vector>
 
 #include "tests/gpu/engine/post/post_test.h"
 

@@ -3,10 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <memory>
 #include <random>
 
-#include "engine/post/ocio_config.h"
 #include "tests/gpu/engine/post/post_test.h"
 #include "tests/unit/engine/post/cpu_effects.h"
 

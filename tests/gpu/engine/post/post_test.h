@@ -1,9 +1,5 @@
 #pragma once
 
-#include <span>
-#include <vector>
-
-#include "engine/gpu/framebuffer.h"
 #include "engine/post/post_stack.h"
 #include "tests/gpu/gl_test.h"
 

@@ -3,10 +3,6 @@
 
 #include <imgui.h>
 
-#include <array>
-#include <string>
-#include <vector>
-
 #include "engine/gpu/pipeline_state.h"
 #include "tests/gpu/gl_test.h"
 

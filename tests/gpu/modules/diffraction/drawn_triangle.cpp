@@ -2,11 +2,8 @@
 
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <glm/gtc/quaternion.hpp>
 #include <glm/matrix.hpp>
-#include <span>
 
-#include "engine/math/spherical_harmonics.h"
 #include "modules/diffraction/runtime/vertex_light.h"
 
 namespace rowland::diffraction {

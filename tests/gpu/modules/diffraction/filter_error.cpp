@@ -1,12 +1,7 @@
 #include "tests/gpu/modules/diffraction/filter_error.h"
 
-#include <algorithm>
-#include <cstddef>
 #include <glm/common.hpp>
 #include <initializer_list>
-#include <span>
-#include <utility>
-#include <vector>
 
 #include "modules/diffraction/runtime/gpu_map.h"
 

@@ -1,11 +1,5 @@
 #include "tests/gpu/modules/diffraction/key_light_reference.h"
 
-#include <cmath>
-#include <map>
-#include <numbers>
-#include <tuple>
-
-#include "modules/diffraction/representations/direct/lobe_table.h"
 #include "tests/gpu/modules/diffraction/filter_error.h"
 
 namespace rowland::diffraction {

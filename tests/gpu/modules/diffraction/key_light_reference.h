@@ -1,8 +1,5 @@
 #pragma once
 
-#include <vector>
-
-#include "engine/lighting/key_lights.h"
 #include "modules/diffraction/asset/cooked_material.h"
 #include "modules/diffraction/representations/direct/direct.h"
 #include "tests/gpu/modules/diffraction/drawn_triangle.h"

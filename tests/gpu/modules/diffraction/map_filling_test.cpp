@@ -1,16 +1,10 @@
 // When maps are filled, and which is shown meanwhile.
 #include "modules/diffraction/runtime/map_cache.h"
 
-#include <gtest/gtest.h>
-
 #include <algorithm>
-#include <array>
 #include <atomic>
-#include <chrono>
-#include <memory>
 #include <semaphore>
 #include <stdexcept>
-#include <vector>
 
 #include "engine/core/error.h"
 #include "tests/gpu/gl_test.h"

@@ -1,7 +1,6 @@
 // A picture that is shown instead of a representation.
 #include "modules/diffraction/runtime/gpu_material.h"
 
-#include "modules/diffraction/asset/material.h"
 #include "modules/diffraction/module.h"
 #include "modules/diffraction/runtime/diffraction_surface.h"
 #include "tests/gpu/render_test.h"

@@ -1,7 +1,6 @@
 // What a scene does not use costs it nothing, by what the driver is told.
 
 #include "modules/diffraction/asset/cooked_material.h"
-#include "modules/diffraction/asset/material.h"
 #include "modules/diffraction/module.h"
 #include "tests/gpu/render_test.h"
 #include "tests/support/replaced_function.h"

@@ -1,8 +1,6 @@
 // The film's shader against the table and the exact sum on the CPU.
 #include "modules/thin_film/runtime/film_surface.h"
 
-#include "engine/render/light_maps.h"
-#include "engine/scene/light.h"
 #include "modules/thin_film/module.h"
 #include "tests/gpu/render_test.h"
 

@@ -1,5 +1,4 @@
 // KHR_materials_iridescence in scenes.
-#include <nlohmann/json.hpp>
 
 #include "engine/render/scene_instance.h"
 #include "modules/thin_film/module.h"

@@ -1,11 +1,7 @@
 // Pixels of rough films under captured light against the sum over every microfacet, each with its own light and the
 // exact sum over wavelengths: all that a frame leaves out, the engine's prefiltered environment and the split sum
 // included.
-#include <array>
-#include <utility>
 
-#include "engine/lighting/environment_map.h"
-#include "engine/lighting/light_samples.h"
 #include "modules/thin_film/evaluate/drawn_film.h"
 #include "modules/thin_film/module.h"
 #include "modules/thin_film/reference/film_reference.h"

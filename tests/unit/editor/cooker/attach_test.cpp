@@ -1,11 +1,7 @@
 // rowland-cook attach and list, through the program.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
-#include <filesystem>
 #include <nlohmann/json.hpp>
-#include <string>
-#include <vector>
 
 #include "engine/core/file.h"
 #include "tests/support/files.h"

@@ -1,10 +1,6 @@
 // The shipped sources through the cooker itself.
-#include <gtest/gtest.h>
 
-#include <filesystem>
 #include <nlohmann/json.hpp>
-#include <string>
-#include <vector>
 
 #include "engine/core/file.h"
 #include "tests/support/files.h"

@@ -1,19 +1,13 @@
 // What `rowland-cook export` writes, read back and shaded by a few obvious lines.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <filesystem>
 #include <glm/glm.hpp>
-#include <nlohmann/json.hpp>
 #include <numbers>
-#include <optional>
 #include <random>
-#include <string>
-#include <vector>
 
 #include "engine/core/file.h"
 #include "engine/math/spherical_harmonics.h"

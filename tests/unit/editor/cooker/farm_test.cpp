@@ -1,16 +1,10 @@
 // plan and run: many sources, many workers.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <algorithm>
-#include <chrono>
-#include <filesystem>
-#include <map>
-#include <string>
 #include <thread>
 
 #include "editor/cooker/jobs.h"
-#include "engine/core/file.h"
 #include "tests/support/expect.h"
 #include "tests/support/folder_test.h"
 #include "tests/support/program.h"

@@ -2,13 +2,6 @@
 
 #include <gmock/gmock.h>
 
-#include <filesystem>
-#include <string>
-#include <utility>
-
-#include "engine/core/error.h"
-#include "engine/core/file.h"
-#include "modules/diffraction/asset/material.h"
 #include "tests/support/expect.h"
 #include "tests/support/files.h"
 

@@ -2,12 +2,9 @@
 
 #include <gmock/gmock.h>
 
-#include <filesystem>
 #include <numbers>
 #include <set>
-#include <string>
 
-#include "engine/core/error.h"
 #include "engine/core/file.h"
 #include "modules/asset_types.h"
 #include "modules/diffraction/asset/material.h"

@@ -1,11 +1,8 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
-#include <chrono>
 #include <cstdlib>
-#include <filesystem>
 #include <glm/mat4x4.hpp>
-#include <string>
 
 #include "editor/inspector/pick_point.h"
 #include "editor/inspector/preview.h"

@@ -1,13 +1,7 @@
 #include "editor/inspector/measurement.h"
 
-#include <fmt/format.h>
 #include <gmock/gmock.h>
 
-#include <filesystem>
-#include <string>
-
-#include "editor/inspector/document.h"
-#include "engine/core/file.h"
 #include "engine/lighting/procedural_probe.h"
 #include "modules/diffraction/evaluate/budget.h"
 #include "modules/diffraction/evaluate/error_measure.h"

@@ -1,27 +1,13 @@
 #include "editor/inspector/physics.h"
 
 #include <fmt/format.h>
-#include <gtest/gtest.h>
 
-#include <algorithm>
-#include <cmath>
 #include <cstdio>
-#include <filesystem>
 #include <glm/geometric.hpp>
-#include <numbers>
 #include <sstream>
-#include <string>
-#include <utility>
-#include <variant>
-#include <vector>
 
 #include "editor/inspector/document.h"
-#include "engine/colour/illuminant.h"
-#include "engine/colour/spectrum.h"
 #include "engine/core/file.h"
-#include "engine/image/image.h"
-#include "modules/diffraction/asset/material.h"
-#include "modules/diffraction/model/grating.h"
 #include "tests/support/files.h"
 
 namespace rowland::inspector {

@@ -3,15 +3,11 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <filesystem>
 #include <numbers>
 #include <set>
-#include <string>
-#include <vector>
 
 #include "editor/inspector/document.h"
 #include "editor/inspector/groove_picture.h"
-#include "engine/core/error.h"
 #include "engine/core/file.h"
 #include "engine/image/byte_image.h"
 #include "tests/support/expect.h"

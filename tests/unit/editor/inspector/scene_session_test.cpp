@@ -1,13 +1,6 @@
 // A session that shows a scene.
 #include <gmock/gmock.h>
 
-#include <cmath>
-#include <glm/geometric.hpp>
-#include <nlohmann/json.hpp>
-#include <string_view>
-#include <vector>
-
-#include "engine/image/byte_image.h"
 #include "engine/scene/mesh_recipe.h"
 #include "tests/support/program.h"
 #include "tests/unit/editor/inspector/small_session.h"

@@ -2,16 +2,6 @@
 
 #include <gmock/gmock.h>
 
-#include <chrono>
-#include <cmath>
-#include <cstdint>
-#include <filesystem>
-#include <glm/geometric.hpp>
-#include <string>
-#include <vector>
-
-#include "engine/core/file.h"
-#include "tests/support/files.h"
 #include "tests/unit/editor/inspector/small_session.h"
 #include "tests/unit/engine/scene/hand_written_gltf.h"
 

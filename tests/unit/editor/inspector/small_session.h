@@ -1,15 +1,8 @@
 #pragma once
 
-#include <gtest/gtest.h>
-
 #include <chrono>
-#include <cstdint>
-#include <filesystem>
-#include <glm/vec2.hpp>
 #include <glm/vec4.hpp>
-#include <string>
 #include <thread>
-#include <vector>
 
 #include "editor/inspector/session.h"
 #include "engine/core/file.h"

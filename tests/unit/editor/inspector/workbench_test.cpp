@@ -1,16 +1,11 @@
 #include "editor/inspector/workbench.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <set>
-#include <string>
 
-#include "editor/inspector/layout.h"
 #include "engine/colour/colour_space.h"
-#include "engine/core/file.h"
 #include "tests/support/files.h"
 
 namespace rowland::inspector {

@@ -1,9 +1,6 @@
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <cmath>
-#include <filesystem>
-#include <string>
 
 #include "engine/core/file.h"
 #include "tests/support/csv.h"

@@ -1,12 +1,7 @@
 #include "editor/trade/inputs.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
-#include <set>
 
 #include "engine/core/file.h"
 #include "tests/support/files.h"

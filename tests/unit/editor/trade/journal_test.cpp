@@ -1,11 +1,9 @@
 #include "editor/trade/journal.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <fstream>
 
-#include "engine/core/file.h"
 #include "tests/support/expect.h"
 #include "tests/support/files.h"
 

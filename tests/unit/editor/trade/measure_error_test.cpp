@@ -2,12 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <glm/geometric.hpp>
 
 #include "engine/colour/colour_space.h"
-#include "modules/diffraction/asset/cooked_material.h"
-#include "modules/diffraction/asset/quality.h"
 
 namespace rowland::trade {
 namespace {

@@ -1,9 +1,5 @@
 // What a representation cannot do is refused alike wherever a method is named: by evaluate, compare, sweep and cook.
 #include <fmt/format.h>
-#include <gtest/gtest.h>
-
-#include <string>
-#include <vector>
 
 #include "engine/core/error.h"
 #include "engine/core/file.h"

@@ -1,7 +1,6 @@
 // The report as a browser draws it: numbers read off the charts' own axes.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,16 +1,10 @@
 #include "editor/trade/report.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <numbers>
 #include <random>
 
 #include "editor/trade/paper_figures.h"
-#include "engine/core/file.h"
 #include "tests/support/files.h"
 
 namespace rowland::trade {

@@ -1,11 +1,5 @@
 #include "editor/trade/sweep_plan.h"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <filesystem>
-#include <set>
-
 #include "editor/trade/sweep.h"
 #include "engine/core/file.h"
 #include "modules/diffraction/evaluate/error_measure.h"

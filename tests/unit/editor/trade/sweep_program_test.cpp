@@ -1,8 +1,6 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
-#include <chrono>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -11,7 +9,6 @@
 
 #include "engine/core/file.h"
 #include "tests/support/files.h"
-#include "tests/support/program.h"
 #include "tests/unit/editor/trade/trade_run.h"
 
 namespace rowland {

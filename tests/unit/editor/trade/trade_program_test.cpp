@@ -1,10 +1,8 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
-#include <string>
 
 #include "engine/asset/container.h"
 #include "engine/core/file.h"

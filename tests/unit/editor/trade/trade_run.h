@@ -1,10 +1,5 @@
 #pragma once
 
-#include <filesystem>
-#include <map>
-#include <string>
-#include <vector>
-
 #include "tests/support/program.h"
 
 namespace rowland::test {

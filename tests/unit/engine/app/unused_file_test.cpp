@@ -1,7 +1,5 @@
 #include "engine/app/drawing_program.h"
 
-#include <gtest/gtest.h>
-
 #include "engine/core/file.h"
 #include "tests/support/files.h"
 

@@ -1,16 +1,11 @@
 #include "engine/asset/container.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <zstd.h>
 
 #include <functional>
-#include <string>
-#include <string_view>
 
 #include "engine/core/byte_stream.h"
-#include "engine/core/error.h"
-#include "engine/core/file.h"
 #include "tests/support/expect.h"
 #include "tests/support/files.h"
 

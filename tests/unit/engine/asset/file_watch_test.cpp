@@ -1,8 +1,5 @@
 #include "engine/asset/file_watch.h"
 
-#include <gtest/gtest.h>
-
-#include "engine/core/file.h"
 #include "tests/support/folder_test.h"
 
 namespace rowland::asset {

@@ -1,9 +1,6 @@
 #include "engine/asset/store.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <string>
 
 #include "engine/core/error.h"
 #include "engine/core/file.h"

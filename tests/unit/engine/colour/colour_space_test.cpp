@@ -1,8 +1,6 @@
-#include <gtest/gtest.h>
 
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
-#include <glm/vec3.hpp>
 
 #include "engine/colour/colour_space.h"
 #include "engine/colour/illuminant.h"

@@ -1,13 +1,10 @@
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <functional>
 #include <glm/geometric.hpp>
-#include <string>
 
 #include "engine/colour/colour_space.h"
 #include "engine/colour/illuminant.h"
-#include "engine/core/error.h"
 #include "engine/core/file.h"
 #include "engine/core/json_reader.h"
 #include "tests/support/expect.h"

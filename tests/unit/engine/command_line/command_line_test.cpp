@@ -1,9 +1,6 @@
 #include "engine/command_line/command_line.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <string>
 
 #include "tests/support/expect.h"
 

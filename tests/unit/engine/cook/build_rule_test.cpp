@@ -1,11 +1,5 @@
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
-#include <chrono>
-#include <filesystem>
-#include <string>
-
-#include "engine/core/file.h"
 #include "tests/support/folder_test.h"
 #include "tests/support/program.h"
 

@@ -1,11 +1,8 @@
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <sys/stat.h>
 
 #include "engine/asset/container.h"
 #include "engine/cook/cook_source.h"
-#include "engine/core/error.h"
-#include "engine/core/file.h"
 #include "tests/support/expect.h"
 #include "tests/support/folder_test.h"
 #include "tests/unit/engine/cook/tile_type.h"

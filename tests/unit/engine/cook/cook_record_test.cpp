@@ -1,8 +1,6 @@
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include "engine/cook/cook_source.h"
-#include "engine/core/file.h"
 #include "tests/support/expect.h"
 #include "tests/support/folder_test.h"
 #include "tests/unit/engine/cook/tile_type.h"

@@ -1,11 +1,7 @@
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <set>
-#include <string>
 
 #include "engine/cook/cook_source.h"
-#include "engine/core/error.h"
-#include "engine/core/file.h"
 #include "engine/core/parallel.h"
 #include "tests/support/expect.h"
 #include "tests/support/folder_test.h"

@@ -1,14 +1,10 @@
 #include "editor/cooker/cooker_program.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <sys/stat.h>
 
 #include <algorithm>
-#include <string>
-#include <vector>
 
-#include "engine/core/file.h"
 #include "tests/support/files.h"
 #include "tests/support/program.h"
 

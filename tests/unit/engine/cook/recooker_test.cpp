@@ -1,11 +1,9 @@
 #include "engine/cook/recooker.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include "engine/asset/container.h"
 #include "engine/cook/cook_source.h"
-#include "engine/core/file.h"
 #include "tests/support/files.h"
 #include "tests/unit/engine/cook/tile_type.h"
 

@@ -1,9 +1,7 @@
 #include "engine/cook/registry.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
-#include "engine/core/file.h"
 #include "tests/support/expect.h"
 #include "tests/support/folder_test.h"
 #include "tests/unit/engine/cook/tile_type.h"

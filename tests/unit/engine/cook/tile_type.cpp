@@ -1,14 +1,10 @@
 #include "tests/unit/engine/cook/tile_type.h"
 
 #include <chrono>
-#include <filesystem>
 #include <fstream>
-#include <new>
 #include <sstream>
-#include <stdexcept>
 #include <thread>
 
-#include "engine/core/file.h"
 #include "engine/core/parallel.h"
 
 namespace rowland::test {

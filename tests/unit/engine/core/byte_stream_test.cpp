@@ -1,10 +1,8 @@
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <limits>
 
 #include "engine/core/byte_stream.h"
-#include "engine/core/error.h"
 #include "engine/core/text.h"
 #include "tests/support/expect.h"
 

@@ -1,18 +1,12 @@
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <csignal>
 #include <fstream>
-#include <span>
-#include <string>
-#include <string_view>
 #include <thread>
-#include <vector>
 
-#include "engine/core/error.h"
 #include "engine/core/file.h"
 #include "tests/support/expect.h"
 #include "tests/support/files.h"

@@ -1,9 +1,7 @@
 #include "engine/core/json_reader.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
-#include "engine/core/error.h"
 #include "tests/support/expect.h"
 
 namespace rowland {

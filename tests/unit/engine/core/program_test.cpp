@@ -1,6 +1,5 @@
 #include <fcntl.h>
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -8,10 +7,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <new>
-#include <stdexcept>
-#include <vector>
 
-#include "engine/core/error.h"
 #include "engine/core/program.h"
 #include "tests/support/expect.h"
 

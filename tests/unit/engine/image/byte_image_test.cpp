@@ -1,12 +1,9 @@
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <png.h>
 
 #include <array>
 #include <cstring>
-#include <vector>
 
-#include "engine/core/error.h"
 #include "engine/core/file.h"
 #include "engine/image/byte_image.h"
 #include "tests/support/expect.h"

@@ -9,13 +9,11 @@
 #include <ImfTileDescriptionAttribute.h>
 #include <ImfTiledOutputFile.h>
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <cmath>
 #include <cstring>
 #include <limits>
 
-#include "engine/core/error.h"
 #include "engine/core/file.h"
 #include "tests/support/expect.h"
 #include "tests/support/files.h"

@@ -1,12 +1,9 @@
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <array>
 #include <cstdlib>
 #include <cstring>
-#include <string>
 
-#include "engine/core/error.h"
 #include "engine/core/file.h"
 #include "engine/image/byte_image.h"
 #include "engine/image/exr.h"

@@ -1,11 +1,7 @@
 #include "engine/image/image.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
-#include <string>
-
-#include "engine/core/error.h"
 #include "engine/core/file.h"
 #include "tests/support/expect.h"
 #include "tests/support/files.h"

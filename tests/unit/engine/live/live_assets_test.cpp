@@ -1,13 +1,10 @@
 #include "engine/live/live_assets.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
-#include <functional>
 #include <thread>
 
 #include "engine/cook/cook_source.h"
-#include "engine/core/file.h"
 #include "engine/image/exr.h"
 #include "engine/scene/cook.h"
 #include "tests/support/expect.h"

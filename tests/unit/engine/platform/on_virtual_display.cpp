@@ -1,5 +1,4 @@
 // Runs all tests of a program on a virtual display, where they are alone with the pointer and the keyboard.
-#include <gtest/gtest.h>
 
 #include <cstdlib>
 

@@ -2,18 +2,11 @@
 #include <GLFW/glfw3.h>
 #include <epoxy/gl.h>
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <array>
-#include <chrono>
-#include <cstdint>
 #include <cstdlib>
-#include <filesystem>
 #include <functional>
-#include <stdexcept>
-#include <string>
 #include <thread>
-#include <vector>
 
 #include "engine/gpu/framebuffer.h"
 #include "engine/platform/gl_context.h"

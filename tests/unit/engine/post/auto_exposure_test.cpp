@@ -2,10 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include <array>
 #include <cmath>
 #include <limits>
-#include <vector>
 
 #include "tests/unit/engine/post/cpu_effects.h"
 

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <glm/vec4.hpp>
-#include <vector>
 
 #include "engine/core/check.h"
 

@@ -1,18 +1,12 @@
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
-#include <utility>
-#include <vector>
 
-#include "engine/core/error.h"
 #include "engine/post/display_pass.h"
 
-#include "engine/post/noise.h"
 #include "tests/support/expect.h"
 #include "tests/support/files.h"
 #include "tests/unit/engine/post/config_variant.h"

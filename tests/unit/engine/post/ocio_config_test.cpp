@@ -1,13 +1,9 @@
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <array>
 #include <cmath>
-#include <cstdlib>
 
 #include "engine/colour/colour_space.h"
-#include "engine/core/error.h"
-#include "engine/post/ocio_config.h"
 #include "tests/support/expect.h"
 #include "tests/support/files.h"
 #include "tests/unit/engine/post/config_variant.h"

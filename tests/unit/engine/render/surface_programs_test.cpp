@@ -1,5 +1,4 @@
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include "engine/render/surface_programs.h"
 #include "engine/render/surface_textures.h"

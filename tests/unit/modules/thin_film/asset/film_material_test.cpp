@@ -1,12 +1,6 @@
 #include "modules/thin_film/asset/film_material.h"
 
-#include <gtest/gtest.h>
-
-#include <filesystem>
-#include <nlohmann/json.hpp>
-
 #include "engine/core/file.h"
-#include "engine/core/json_reader.h"
 #include "modules/thin_film/asset/gltf_iridescence.h"
 #include "tests/support/expect.h"
 #include "tests/support/files.h"

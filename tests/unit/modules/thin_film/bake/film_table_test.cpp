@@ -1,12 +1,7 @@
-#include <gtest/gtest.h>
 #include <algorithm>
 #include <cmath>
-#include <glm/geometric.hpp>
 #include <numbers>
-#include <string>
-#include <vector>
 
-#include "engine/lighting/light_samples.h"
 #include "engine/lighting/lobe_nodes.h"
 #include "modules/thin_film/bake/film_table.h"
 #include "modules/thin_film/reference/film_reference.h"

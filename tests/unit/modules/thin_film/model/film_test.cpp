@@ -1,8 +1,6 @@
-#include <gtest/gtest.h>
 #include <array>
 #include <cmath>
 #include <numbers>
-#include <string>
 
 #include "engine/colour/colour_space.h"
 #include "modules/thin_film/model/film.h"

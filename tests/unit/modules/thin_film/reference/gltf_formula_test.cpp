@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include "engine/colour/colour_space.h"
-#include "modules/thin_film/model/film.h"
 
 namespace rowland::thin_film {
 namespace {
