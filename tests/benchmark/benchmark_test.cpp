@@ -1,19 +1,13 @@
 // The benchmark programs as a user runs them: they draw what they name and print what they measure. No time is judged.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <cctype>
-#include <chrono>
 #include <cmath>
-#include <filesystem>
 #include <glm/vec2.hpp>
-#include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
 #include <stdexcept>
-#include <string>
-#include <vector>
 
 #include "engine/core/file.h"
 #include "tests/support/files.h"

@@ -1,21 +1,12 @@
 // Frame times of every representation against the plain material, all variants interleaved in one run.
 #include <CLI/CLI.hpp>
-#include <algorithm>
-#include <cstdio>
-#include <filesystem>
-#include <optional>
-#include <string>
-#include <vector>
 
 #include "engine/command_line/command_line.h"
 #include "engine/core/error.h"
-#include "engine/core/file.h"
 #include "engine/core/log.h"
 #include "engine/core/program.h"
-#include "engine/platform/gl_context.h"
 #include "tests/benchmark/frame_report.h"
 #include "tests/benchmark/frame_stage.h"
-#include "tests/benchmark/frame_variant.h"
 #include "tests/benchmark/program_log.h"
 
 namespace rowland {

@@ -7,7 +7,6 @@
 #include <cctype>
 #include <nlohmann/json.hpp>
 #include <thread>
-#include <vector>
 
 #include "engine/core/check.h"
 #include "tests/benchmark/processor.h"

@@ -1,33 +1,16 @@
 #include "tests/benchmark/frame_stage.h"
 
-#include <epoxy/gl.h>
-
-#include <algorithm>
-#include <chrono>
-#include <cmath>
 #include <ctime>
-#include <filesystem>
 #include <glm/gtc/constants.hpp>
-#include <glm/gtc/quaternion.hpp>
 #include <glm/trigonometric.hpp>
-#include <numbers>
 
 #include "editor/trade/stage.h"
 #include "engine/asset/container.h"
-#include "engine/colour/illuminant.h"
-#include "engine/core/check.h"
-#include "engine/lighting/probe_image.h"
 #include "engine/lighting/procedural_probe.h"
 #include "engine/post/ocio_config.h"
-#include "engine/render/reflections.h"
-#include "engine/scene/light.h"
 #include "engine/scene/mesh_recipe.h"
-#include "engine/scene/transform.h"
-#include "engine/scene/wear.h"
-#include "modules/diffraction/asset/material.h"
 #include "modules/diffraction/module.h"
 #include "modules/diffraction/runtime/diffraction_surface.h"
-#include "modules/diffraction/runtime/groove_map.h"
 #include "modules/thin_film/module.h"
 #include "modules/thin_film/runtime/film_surface.h"
 #include "tests/benchmark/cd_materials.h"

@@ -4,10 +4,8 @@
 #include <glm/vec3.hpp>
 #include <map>
 #include <memory>
-#include <string>
 #include <tuple>
 #include <utility>
-#include <vector>
 
 #include "engine/gpu/framebuffer.h"
 #include "engine/gpu/pass_times.h"

@@ -3,26 +3,18 @@
 // by 15 000 stratified samples of the sphere per view. Prints JSON.
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <chrono>
-#include <cmath>
-#include <cstdio>
 #include <ctime>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 #include <limits>
-#include <nlohmann/json.hpp>
 #include <numbers>
-#include <vector>
 
-#include "engine/colour/illuminant.h"
-#include "engine/colour/spectrum.h"
 #include "engine/core/parallel.h"
 #include "engine/core/program.h"
 #include "engine/lighting/light_samples.h"
 #include "engine/lighting/procedural_probe.h"
 #include "engine/math/quadrature.h"
-#include "engine/math/spherical_harmonics.h"
 #include "modules/diffraction/asset/cooked_material.h"
 #include "modules/diffraction/asset/material.h"
 #include "modules/diffraction/bake/view_spectrum.h"

@@ -1,16 +1,5 @@
 #include "tests/benchmark/program_log.h"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <array>
-#include <cstddef>
-#include <nlohmann/json.hpp>
-#include <optional>
-#include <string>
-
-#include "engine/core/check.h"
-#include "engine/core/file.h"
 #include "engine/core/log.h"
 #include "tests/benchmark/frame_stage.h"
 #include "tests/support/replaced_function.h"

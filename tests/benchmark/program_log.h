@@ -8,8 +8,6 @@
 #include <map>
 #include <memory>
 #include <optional>
-#include <string>
-#include <vector>
 
 #include "tests/benchmark/frame_variant.h"
 

@@ -1,9 +1,4 @@
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include <algorithm>
-#include <filesystem>
-#include <string>
 
 #include "engine/scene/editable_gltf.h"
 #include "tests/support/files.h"

@@ -1,18 +1,12 @@
 // The real cooker when things go wrong around it.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
-#include <chrono>
 #include <csignal>
-#include <filesystem>
 #include <set>
-#include <string>
 
-#include "engine/core/file.h"
 #include "tests/faults/moments.h"
 #include "tests/faults/small_disk.h"
 #include "tests/support/folder_test.h"
-#include "tests/support/program.h"
 
 namespace rowland {
 namespace {

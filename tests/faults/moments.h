@@ -1,9 +1,6 @@
 #pragma once
 
-#include <filesystem>
 #include <functional>
-#include <optional>
-#include <string>
 
 #include "tests/support/program.h"
 

@@ -1,16 +1,10 @@
 // The programs that draw, when the GPU, the display or the disk for their pictures fails.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <algorithm>
-#include <filesystem>
-#include <string>
-#include <vector>
 
 #include "engine/core/file.h"
 #include "tests/faults/small_disk.h"
-#include "tests/support/files.h"
-#include "tests/support/program.h"
 #include "tests/support/virtual_display.h"
 
 namespace rowland {

@@ -1,18 +1,13 @@
 // The smallest and the largest files of users: loaded in memory proportional to the file, or refused by their size.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdint>
 #include <cstdio>
-#include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <numbers>
-#include <string>
-#include <vector>
 
 #include "engine/core/file.h"
 #include "tests/support/files.h"

@@ -1,13 +1,10 @@
 #pragma once
 
-#include <gtest/gtest.h>
 #include <sys/mount.h>
 #include <sys/statvfs.h>
 
-#include <filesystem>
 #include <fstream>
 #include <stdexcept>
-#include <string>
 
 #include "tests/support/files.h"
 

@@ -1,18 +1,13 @@
 // A sweep of hours when things go wrong around it: what it has measured is not lost.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <algorithm>
-#include <chrono>
 #include <csignal>
-#include <filesystem>
-#include <string>
 
 #include "engine/core/file.h"
 #include "tests/faults/moments.h"
 #include "tests/faults/small_disk.h"
-#include "tests/support/files.h"
-#include "tests/support/program.h"
+#include "tests/support/folder_test.h"
 #include "tests/unit/editor/trade/trade_run.h"
 
 namespace rowland {
@@ -24,11 +19,10 @@ using testing::AllOf;
 using testing::HasSubstr;
 using testing::StartsWith;
 
-class SweepFaults : public testing::Test {
+class SweepFaults : public test::FolderTest {
  protected:
     void SetUp() override { test::write_sweep_inputs(folder_.path()); }
 
-    std::filesystem::path path(const std::string& name) const { return folder_.path() / name; }
     static std::string text(const std::filesystem::path& file) {
         return std::filesystem::exists(file) ? read_text_file(file, 1 << 24) : "";
     }
@@ -57,8 +51,6 @@ class SweepFaults : public testing::Test {
         return text(path("undisturbed/sweep.csv"));
     }
     static std::ptrdiff_t lines(const std::string& text) { return std::count(text.begin(), text.end(), '\n'); }
-
-    test::TemporaryFolder folder_;
 };
 
 /// Killed, started again, killed …: each time after two more results.

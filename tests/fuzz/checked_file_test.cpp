@@ -1,12 +1,7 @@
 // Every file of the test data through the program that a user has.
-#include <gtest/gtest.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cstdio>
-#include <filesystem>
-#include <string>
-#include <vector>
 
 #include "tests/support/files.h"
 #include "tests/support/program.h"

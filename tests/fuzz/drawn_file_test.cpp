@@ -1,22 +1,11 @@
 // What remains of a damaged file that is read can be drawn: the driver reports no error, and nothing ends the program.
-#include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstdio>
-#include <cstdlib>
-#include <functional>
-#include <glm/common.hpp>
-#include <glm/geometric.hpp>
-#include <memory>
-#include <string>
 
 #include "engine/core/error.h"
 #include "engine/image/exr.h"
-#include "engine/image/image.h"
-#include "engine/lighting/light_probe.h"
 #include "engine/render/scene_instance.h"
 #include "engine/scene/gltf_import.h"
-#include "engine/scene/transform.h"
 #include "modules/diffraction/asset/cooked_material.h"
 #include "modules/diffraction/runtime/diffraction_surface.h"
 #include "modules/material_types.h"

@@ -1,28 +1,20 @@
 #include "tests/fuzz/format.h"
 
 #include <algorithm>
-#include <cmath>
-#include <cstdint>
-#include <cstring>
 #include <stdexcept>
-#include <string_view>
 
 #include "content/demo/play/recording.h"
 #include "editor/cooker/jobs.h"
 #include "engine/asset/container.h"
 #include "engine/colour/illuminant.h"
-#include "engine/core/check.h"
 #include "engine/core/error.h"
 #include "engine/core/json_reader.h"
-#include "engine/image/byte_image.h"
 #include "engine/image/exr.h"
 #include "engine/image/image.h"
 #include "engine/lighting/light_probe.h"
 #include "engine/lighting/probe_recipe.h"
 #include "engine/scene/draco_decode.h"
 #include "engine/scene/editable_gltf.h"
-#include "engine/scene/gltf_import.h"
-#include "engine/scene/gltf_source.h"
 #include "engine/scene/mesh_recipe.h"
 #include "modules/diffraction/asset/cooked_material.h"
 #include "modules/diffraction/asset/gltf_extension.h"

@@ -1,9 +1,7 @@
 // libFuzzer's entry. ROWLAND_FUZZ_FORMAT names what is fuzzed, so that one program does for all.
-#include <cstddef>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
-#include <span>
 
 #include "tests/fuzz/format.h"
 

@@ -7,12 +7,9 @@
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
-#include <filesystem>
 #include <optional>
-#include <string>
 
 #include "engine/core/file.h"
-#include "tests/fuzz/format.h"
 #include "tests/fuzz/mutate.h"
 #include "tests/fuzz/seeds.h"
 

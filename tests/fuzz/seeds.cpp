@@ -1,10 +1,7 @@
 #include "tests/fuzz/seeds.h"
 
 #include <algorithm>
-#include <filesystem>
 #include <nlohmann/json.hpp>
-#include <string>
-#include <string_view>
 #include <utility>
 
 #include "content/demo/play/recording.h"

@@ -1,9 +1,5 @@
 #pragma once
 
-#include <cstddef>
-#include <string>
-#include <vector>
-
 #include "tests/fuzz/format.h"
 
 namespace rowland::fuzz {

@@ -1,12 +1,8 @@
 // Writes the seeds of every format to FOLDER/FORMAT/, for libFuzzer.
 #include <cstdio>
-#include <filesystem>
-#include <span>
-#include <string>
 
 #include "engine/core/file.h"
 #include "engine/core/program.h"
-#include "tests/fuzz/format.h"
 #include "tests/fuzz/seeds.h"
 
 int main(int argc, char** argv) {

@@ -13,7 +13,6 @@
 #include <stb/stb_image.h>
 #pragma GCC diagnostic pop
 
-#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>

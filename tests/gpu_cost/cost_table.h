@@ -1,8 +1,5 @@
 #pragma once
 
-#include <string>
-#include <vector>
-
 #include "tests/gpu_cost/amd_compiler.h"
 
 namespace rowland::gpu_cost {

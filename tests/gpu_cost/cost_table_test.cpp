@@ -1,7 +1,6 @@
 #include "tests/gpu_cost/cost_table.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
 

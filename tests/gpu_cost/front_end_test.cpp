@@ -1,14 +1,9 @@
 // Every program of the benchmark's frames, with each feature that a surface may add, through the strict reference front
 // end.
-#include <gtest/gtest.h>
 
 #include <algorithm>
-#include <filesystem>
-#include <optional>
 #include <set>
 #include <sstream>
-#include <string>
-#include <vector>
 
 #include "engine/core/file.h"
 #include "engine/render/surface_programs.h"

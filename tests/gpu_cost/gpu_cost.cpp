@@ -2,20 +2,13 @@
 #include <CLI/CLI.hpp>
 #include <array>
 #include <cstdio>
-#include <filesystem>
-#include <memory>
-#include <optional>
-#include <string>
-#include <vector>
 
 #include "engine/command_line/command_line.h"
 #include "engine/core/file.h"
 #include "engine/core/log.h"
 #include "engine/core/program.h"
-#include "tests/gpu_cost/amd_compiler.h"
 #include "tests/gpu_cost/captured_frames.h"
 #include "tests/gpu_cost/cost_table.h"
-#include "tests/gpu_cost/spirv.h"
 #include "tests/support/files.h"
 
 namespace rowland {

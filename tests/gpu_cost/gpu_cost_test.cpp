@@ -1,8 +1,6 @@
 // The program, where AMD's compiler is installed.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
-#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "engine/core/file.h"

@@ -1,7 +1,6 @@
 #include "tests/gpu_cost/spirv.h"
 
 #include <cstring>
-#include <filesystem>
 #include <regex>
 
 #include "engine/core/error.h"

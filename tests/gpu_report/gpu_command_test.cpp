@@ -1,8 +1,5 @@
 // `./rowland gpu` as a user runs it, at tiny sizes where the processor draws.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <filesystem>
 
 #include "engine/core/file.h"
 #include "tests/support/files.h"

@@ -1,10 +1,6 @@
 // The results that `./rowland gpu` gathers, as one page.
 #include <CLI/CLI.hpp>
-#include <cstdio>
 #include <filesystem>
-#include <optional>
-#include <string>
-#include <vector>
 
 #include "engine/command_line/command_line.h"
 #include "engine/core/file.h"

@@ -1,7 +1,6 @@
 #include "tests/gpu_report/report.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 namespace rowland::gpu_report {
 namespace {

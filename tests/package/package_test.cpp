@@ -1,31 +1,22 @@
 // Installs into a fresh prefix, and builds and runs the examples of content/examples against it; the pages about them.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
-#include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
-#include <filesystem>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <glm/gtc/quaternion.hpp>
-#include <glm/vec3.hpp>
 #include <sstream>
-#include <string>
-#include <vector>
 
 #include "engine/core/file.h"
 #include "engine/core/text.h"
-#include "engine/image/byte_image.h"
 #include "engine/image/exr.h"
 #include "engine/scene/mesh_recipe.h"
 #include "modules/diffraction/asset/cooked_material.h"
 #include "modules/diffraction/bake/kernel_cells.h"
 #include "modules/diffraction/representations/direct/direct.h"
-#include "tests/support/files.h"
+#include "tests/support/folder_test.h"
 #include "tests/support/program.h"
 #include "tests/unit/engine/scene/hand_written_gltf.h"
 
@@ -45,7 +36,7 @@ constexpr const char* kMaterial = R"({
   "quality": { "representation": "direct" }
 })";
 
-class PackageTest : public testing::Test {
+class PackageTest : public test::FolderTest {
  protected:
     void SetUp() override {
         if (!std::filesystem::exists(ROWLAND_TEST_COMPILER)) GTEST_SKIP() << "no compiler " << ROWLAND_TEST_COMPILER;
@@ -53,8 +44,6 @@ class PackageTest : public testing::Test {
         write_probe();
         write_file_atomic(path("cd.json"), std::string_view(kMaterial));
     }
-
-    std::filesystem::path path(const std::string& name) const { return folder_.path() / name; }
 
     /// What a program prints; it must succeed.
     static std::string run(const std::vector<std::string>& command) {
@@ -144,8 +133,6 @@ class PackageTest : public testing::Test {
         const auto middle = static_cast<std::size_t>(4 * (picture.height / 2 * picture.width + picture.width / 2));
         return {picture.rgba[middle], picture.rgba[middle + 1], picture.rgba[middle + 2]};
     }
-
-    test::TemporaryFolder folder_;
 };
 
 /// Largest difference of XYZ over the largest component of the expected.

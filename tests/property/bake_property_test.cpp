@@ -1,14 +1,9 @@
 // Arc coefficients, spikes and their table, the reference beside them; lobes and orders of width: few grooves, narrow
 // lobes and pits; gratings whose efficiencies come as tables.
-#include <algorithm>
 #include <glm/gtc/matrix_access.hpp>
 
-#include "engine/colour/spectrum.h"
-#include "engine/math/spherical_harmonics.h"
 #include "modules/diffraction/bake/arc_moments.h"
-#include "modules/diffraction/model/brdf.h"
 #include "modules/diffraction/model/colour_kernel.h"
-#include "modules/diffraction/model/grating.h"
 #include "modules/diffraction/reference/reference.h"
 #include "modules/diffraction/representations/spikes/spikes.h"
 #include "tests/property/generators.h"

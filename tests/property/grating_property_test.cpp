@@ -1,11 +1,6 @@
 // The grating's equation, efficiencies, lobes and BRDFs; the colour kernel and its table.
-#include <algorithm>
-#include <cmath>
-#include <numbers>
 
-#include "modules/diffraction/model/brdf.h"
 #include "modules/diffraction/model/colour_kernel.h"
-#include "modules/diffraction/model/grating.h"
 #include "tests/property/generators.h"
 
 namespace rowland::property {

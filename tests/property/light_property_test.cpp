@@ -1,13 +1,8 @@
 // Spherical harmonics, their rotation, windows and quadrature; probes with bad texels and light of every strength,
 // cooked and read back.
-#include <algorithm>
-#include <glm/matrix.hpp>
 #include <limits>
 
-#include "engine/colour/illuminant.h"
-#include "engine/lighting/light_probe.h"
 #include "engine/math/quadrature.h"
-#include "engine/math/spherical_harmonics.h"
 #include "tests/property/generators.h"
 #include "tests/support/light.h"
 

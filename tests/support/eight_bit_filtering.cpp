@@ -1,6 +1,5 @@
 #include "tests/support/eight_bit_filtering.h"
 
-#include <cstdlib>
 #include <optional>
 
 #include "engine/core/error.h"

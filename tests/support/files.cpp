@@ -2,7 +2,6 @@
 
 #include <cstdlib>
 #include <stdexcept>
-#include <string>
 #include <string_view>
 
 namespace rowland::test {

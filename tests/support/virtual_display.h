@@ -1,9 +1,5 @@
 #pragma once
 
-#include <gtest/gtest.h>
-
-#include <string>
-
 #include "tests/support/files.h"
 #include "tests/support/program.h"
 

@@ -1,9 +1,6 @@
 // Keeps the walls between the parts: reads every #include of the tree.
-#include <gtest/gtest.h>
 
-#include <filesystem>
 #include <fstream>
-#include <string>
 #include <vector>
 
 #include "tests/support/files.h"

@@ -1,12 +1,10 @@
 // Pages and comments refer to what exists (sections and formulas of PHYSICS.md, files, headings), and use standard
 // terms: private usages of common words, which outsiders stumbled over, stay out of comments, names, messages and
 // pages.
-#include <gtest/gtest.h>
 
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <filesystem>
 #include <fstream>
 #include <functional>
 #include <iterator>
@@ -14,7 +12,6 @@
 #include <regex>
 #include <set>
 #include <sstream>
-#include <string>
 #include <string_view>
 #include <vector>
 

@@ -1,11 +1,9 @@
 // A schema is recorded from its parser, so it says what the parser does: thousands of small changes to good documents,
 // each judged by both.
-#include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <string>
 #include <utility>
 #include <vector>
 

@@ -1,12 +1,6 @@
 // Every representation's programs in the dialect of WebGL 2, through the reference front end.
-#include <fmt/format.h>
-#include <gtest/gtest.h>
-
-#include <string>
-#include <vector>
 
 #include "engine/core/file.h"
-#include "engine/gpu/shader_library.h"
 #include "engine/render/shader_interface.h"
 #include "modules/diffraction/shaders/shader_files.h"
 #include "tests/support/files.h"

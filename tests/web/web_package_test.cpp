@@ -1,7 +1,4 @@
 // The npm package in a browser: content/web/three/test, in the copy that `./rowland web` builds.
-#include <gtest/gtest.h>
-
-#include <filesystem>
 
 #include "tests/support/files.h"
 #include "tests/support/program.h"

@@ -1,7 +1,6 @@
 #include "tests/window/demo_user.h"
 
 #include <fmt/format.h>
-#include <gtest/gtest.h>
 
 #include <cstdlib>
 #include <stdexcept>

@@ -1,10 +1,6 @@
 #pragma once
 
-#include <chrono>
-#include <filesystem>
-#include <glm/vec2.hpp>
 #include <nlohmann/json.hpp>
-#include <string>
 
 #include "engine/image/byte_image.h"
 #include "tests/window/window_user.h"

@@ -1,14 +1,11 @@
 // The demo in a real window, used by real keys and drags under Xvfb. Each test compares screenshots; without the input
 // under test they are equal.
-#include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cstdlib>
-#include <filesystem>
-#include <string>
 
 #include "engine/core/file.h"
-#include "tests/support/files.h"
+#include "tests/support/folder_test.h"
 #include "tests/window/demo_user.h"
 
 namespace rowland {
@@ -27,7 +24,7 @@ int largest_difference(const image::ByteImage& a, const image::ByteImage& b) {
     return largest;
 }
 
-class DemoWindow : public ::testing::Test {
+class DemoWindow : public test::FolderTest {
  protected:
     void SetUp() override { ROWLAND_NEEDS_VIRTUAL_DISPLAY(); }
 
@@ -37,15 +34,12 @@ class DemoWindow : public ::testing::Test {
         result.insert(result.end(), more.begin(), more.end());
         return result;
     }
-    std::filesystem::path path(const std::string& name) const { return folder_.path() / name; }
     /// The file that replaces the sky's fragment shader.
     std::filesystem::path sky_shader() const {
         const std::filesystem::path file = path("engine/render/shaders/sky.frag.glsl");
         std::filesystem::create_directories(file.parent_path());
         return file;
     }
-
-    test::TemporaryFolder folder_;
 };
 
 /// A sky shader whose main() does this.

@@ -1,20 +1,14 @@
 // The demo's panels, wipe and measured pixel, used by real clicks, drags and keys under Xvfb.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
-#include <nlohmann/json.hpp>
-#include <string>
 #include <thread>
-#include <vector>
 
 #include "engine/core/file.h"
 #include "engine/core/text.h"
-#include "engine/image/byte_image.h"
-#include "tests/support/files.h"
+#include "tests/support/folder_test.h"
 #include "tests/unit/editor/trade/trade_run.h"
 #include "tests/window/demo_user.h"
 
@@ -32,7 +26,7 @@ constexpr glm::ivec2 kLampBox{30, 150};
 /// On the disc.
 constexpr glm::ivec2 kOnGrating{590, 240};
 
-class HudWindow : public ::testing::Test {
+class HudWindow : public test::FolderTest {
  protected:
     HudWindow() {
         test::write_sweep_inputs(folder_.path());
@@ -63,7 +57,6 @@ class HudWindow : public ::testing::Test {
         result.insert(result.end(), more.begin(), more.end());
         return result;
     }
-    std::filesystem::path path(const std::string& name) const { return folder_.path() / name; }
     /// The probe with its rows turned over.
     std::string turned_sky() const {
         const std::string sky = read_text_file(folder_.path() / "sky.hdr", 1 << 20);
@@ -96,8 +89,6 @@ class HudWindow : public ::testing::Test {
             // Nine significant digits are printed.
             EXPECT_NEAR(shown["reference_xyz"][i].get<double>(), xyz[i], 1e-8 * std::abs(xyz[i]));
     }
-
-    test::TemporaryFolder folder_;
 };
 
 /// One session: a click in the panel, the wipe, the next representations and a dropped probe, all recorded.
@@ -146,7 +137,7 @@ TEST_F(HudWindow, PanelsWipeAndRepresentationsShowAndAreRecorded) {
         user.drop(path("turned.hdr"));
         user.shot_unlike(third, 60s);
     }
-    const std::string recording = read_text_file(path("play.jsonl"), 1 << 20);
+    const std::string recording = text("play.jsonl");
     EXPECT_THAT(recording, HasSubstr(R"("set":"wipe","to":1.0)"));
     EXPECT_THAT(recording, HasSubstr(R"("set":"right look","to":"spikes, medium")"));
     EXPECT_THAT(recording, HasSubstr(R"("set":"wipe line","to":0.5)"));

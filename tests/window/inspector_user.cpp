@@ -1,7 +1,5 @@
 #include "tests/window/inspector_user.h"
 
-#include <gtest/gtest.h>
-
 #include <fstream>
 #include <sstream>
 #include <stdexcept>

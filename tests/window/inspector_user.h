@@ -1,9 +1,6 @@
 #pragma once
 
-#include <filesystem>
-#include <map>
 #include <nlohmann/json.hpp>
-#include <string>
 
 #include "tests/window/window_user.h"
 
@@ -52,7 +49,8 @@ class InspectorUser {
 
  private:
     Facts read_facts() const;
-    /// Waits for so many frames. After two the inspector has seen the last input; a popup finds its position in two more.
+    /// Waits for so many frames. After two the inspector has seen the last input; a popup finds its position in two
+    /// more.
     void wait_for_frames(int count = 5);
     /// The middle of a control, once it is there.
     glm::ivec2 middle_of(const std::string& control) const;

@@ -1,16 +1,11 @@
 // The inspector in a real window, used by real mouse and keys under Xvfb. What each step did is read from the facts
 // that the inspector writes; without the step, what is expected after it fails.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
-#include <filesystem>
-#include <nlohmann/json.hpp>
-#include <string>
 #include <thread>
 
 #include "engine/core/file.h"
 #include "modules/diffraction/asset/material.h"
-#include "tests/support/files.h"
 #include "tests/support/light.h"
 #include "tests/window/inspector_user.h"
 

@@ -1,15 +1,12 @@
 // The demo played with by real keys and drags under Xvfb. What an input is to change is compared with what the same
 // steps without it leave as it was.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
-#include <filesystem>
-#include <string>
 #include <thread>
 #include <utility>
 
 #include "engine/core/file.h"
-#include "tests/support/files.h"
+#include "tests/support/folder_test.h"
 #include "tests/window/demo_user.h"
 
 namespace rowland {
@@ -36,7 +33,7 @@ std::string state_in(const std::string& messages) {
     return at == std::string::npos ? std::string() : messages.substr(at, messages.find('\n', at) - at);
 }
 
-class PlayWindow : public ::testing::Test {
+class PlayWindow : public test::FolderTest {
  protected:
     void SetUp() override { ROWLAND_NEEDS_VIRTUAL_DISPLAY(); }
 
@@ -47,14 +44,11 @@ class PlayWindow : public ::testing::Test {
         result.insert(result.end(), more.begin(), more.end());
         return result;
     }
-    std::filesystem::path path(const std::string& name) const { return folder_.path() / name; }
     /// A screenshot once maps are full.
     static image::ByteImage full_shot(DemoUser& user) {
         user.wait_for_maps(180s);
         return user.shot();
     }
-
-    test::TemporaryFolder folder_;
 };
 
 TEST_F(PlayWindow, DragsThrowsLightsAndWalksChangeWhatTheyNameAndNothingElse) {

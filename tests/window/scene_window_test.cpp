@@ -1,21 +1,14 @@
 // An artist's scene in the inspector's window: chosen by a click, given a grating, its grooves turned, saved, and drawn
 // by the demo.
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
-#include <filesystem>
-#include <nlohmann/json.hpp>
 #include <sstream>
-#include <string>
-#include <vector>
 
 #include "engine/core/file.h"
 #include "engine/image/byte_image.h"
 #include "engine/scene/editable_gltf.h"
 #include "modules/diffraction/asset/gltf_extension.h"
-#include "tests/support/files.h"
+#include "tests/support/folder_test.h"
 #include "tests/support/light.h"
 #include "tests/window/inspector_user.h"
 
@@ -26,13 +19,12 @@ using nlohmann::ordered_json;
 using test::Facts;
 using test::InspectorUser;
 
-class SceneWindow : public ::testing::Test {
+class SceneWindow : public test::FolderTest {
  protected:
     void SetUp() override {
         ROWLAND_NEEDS_VIRTUAL_DISPLAY();
         write_file_atomic(path("sky.json"), test::small_sky(128));
     }
-    std::filesystem::path path(const std::string& name) const { return folder_.path() / name; }
 
     /// The demo's picture of a scene.
     std::vector<std::uint8_t> drawn(const std::filesystem::path& scene) const {
@@ -78,7 +70,6 @@ class SceneWindow : public ::testing::Test {
 
     static constexpr const char* kWidth = "360";
     const std::string kLamps = test::content_path("probes/night.json").string();
-    test::TemporaryFolder folder_;
 };
 
 TEST_F(SceneWindow, OneSampleOfManyGetsAGratingAlone) {

@@ -1,12 +1,8 @@
 #pragma once
 
-#include <chrono>
-#include <filesystem>
 #include <functional>
 #include <glm/vec2.hpp>
-#include <string>
 
-#include "tests/support/program.h"
 #include "tests/support/virtual_display.h"
 
 namespace rowland::test {

@@ -99,7 +99,6 @@ void main() { colour = value; })");
             bilinear(texels, width, height, static_cast<int>(coordinates[i].z), coordinates[i].x, coordinates[i].y);
         for (int c = 0; c < 4; ++c) worst = std::max(worst, std::abs(pixels[i][c] - expected[c]));
     }
-    RecordProperty("worst", std::to_string(worst));
     // GPUs take 8 bits of a position, rounded or cut off: a step off on both axes, between texels that differ by up
     // to 1.
     EXPECT_LE(worst, 2.0 / 256.0);

@@ -63,7 +63,6 @@ TEST_F(ContextTest, GivesOpenGl45Core) {
     EXPECT_EQ(profile, GL_CONTEXT_CORE_PROFILE_BIT);
     EXPECT_FALSE(context_.renderer().empty());
     EXPECT_FALSE(context_.version().empty());
-    RecordProperty("renderer", context_.renderer());
 }
 
 TEST_F(ContextTest, IsADebugContextWhereAskedForAndInDebugBuilds) {

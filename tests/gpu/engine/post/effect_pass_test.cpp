@@ -47,7 +47,6 @@ class AutoExposurePassTest : public test::PostTest {
 };
 
 TEST_F(AutoExposurePassTest, AgreesWithTheCpu) {
-    double worst = 0.0;
     for (const glm::ivec2 size : {glm::ivec2(640, 360), glm::ivec2(129, 65), glm::ivec2(3, 70), glm::ivec2(1, 1)}) {
         const std::vector<glm::vec3> pixels = varied_picture(size);
         const auto measured = measure(pixels, size);
@@ -55,9 +54,7 @@ TEST_F(AutoExposurePassTest, AgreesWithTheCpu) {
         const double expected = *post::mean_log2_luminance(pixels, kWeights, kDarkest);
         // The promise of the header: a thousandth of a stop, which no eye sees.
         EXPECT_NEAR(*measured, expected, 1e-3) << size.x;
-        worst = std::max(worst, std::abs(*measured - expected));
     }
-    RecordProperty("worst_stops", fmt::format("{}", worst));
 }
 
 TEST_F(AutoExposurePassTest, APictureOfNoNumbersHasNoLuminance) {
@@ -115,7 +112,6 @@ class BloomPassTest : public test::PostTest {
 };
 
 TEST_F(BloomPassTest, AgreesWithTheCpu) {
-    double worst = 0.0;
     for (const glm::ivec2 size : {glm::ivec2(64, 32), glm::ivec2(37, 23), glm::ivec2(5, 1), glm::ivec2(1, 1)}) {
         for (const int levels : {1, 3, 6}) {
             const BloomSettings settings{.strength = 0.75F, .levels = levels};
@@ -129,13 +125,11 @@ TEST_F(BloomPassTest, AgreesWithTheCpu) {
             for (std::size_t i = 0; i < pixels.size(); ++i) {
                 for (int c = 0; c < 3; ++c) {
                     EXPECT_NEAR(drawn[i][c], expected[i][c], tolerance * expected[i][c]) << size.x << " " << i;
-                    worst = std::max(worst, std::abs(static_cast<double>(drawn[i][c]) / expected[i][c] - 1.0));
                 }
                 EXPECT_EQ(drawn[i].a, pixels[i].a);
             }
         }
     }
-    RecordProperty("worst_relative", fmt::format("{}", worst));
 }
 
 TEST_F(BloomPassTest, KeepsTheLightInHalfFloats) {

@@ -1,5 +1,3 @@
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -125,7 +123,6 @@ TEST_F(PostStackTest, AgreesWithTheEffectsOnTheCpuInTheirOrder) {
         }
         stack.forget_exposure();
     }
-    RecordProperty("worst_display_value", fmt::format("{}", worst));
 }
 
 TEST_F(PostStackTest, AutomaticExposureShowsAnEvenPictureAsMidGrey) {

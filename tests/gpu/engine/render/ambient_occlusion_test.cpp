@@ -64,9 +64,6 @@ class AmbientOcclusionTest : public test::TracedSceneTest {
         result.mean /= count;
         result.mean_occlusion /= count;
         result.worst_of_99 = errors[errors.size() * 99 / 100];
-        RecordProperty("mean_error", std::to_string(result.mean));
-        RecordProperty("mean_occlusion", std::to_string(result.mean_occlusion));
-        RecordProperty("99th_percentile", std::to_string(result.worst_of_99));
         return result;
     }
 

@@ -1,5 +1,4 @@
 // What a frame draws, culls, compiles and measures; skins; parts of the picture.
-#include <algorithm>
 #include <glm/gtc/matrix_transform.hpp>
 #include <random>
 

@@ -3,7 +3,6 @@
 
 #include "tests/gpu/modules/diffraction/grating_picture.h"
 #include "tests/support/expect.h"
-#include "tests/support/files.h"
 #include "tests/support/light.h"
 
 namespace rowland::diffraction {

@@ -1,10 +1,6 @@
 #include "content/demo/options.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <string>
-#include <vector>
 
 #include "engine/core/file.h"
 #include "tests/support/expect.h"

@@ -1,15 +1,11 @@
 // What the user sets with sliders and lists, as the session carries it out.
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
-#include <filesystem>
 #include <glm/geometric.hpp>
-#include <vector>
 
 #include "content/demo/play/body.h"
 #include "content/demo/session.h"
 #include "engine/cook/cook_source.h"
-#include "engine/core/error.h"
 #include "engine/core/file.h"
 #include "engine/platform/gl_context.h"
 #include "tests/support/expect.h"

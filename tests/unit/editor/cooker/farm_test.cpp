@@ -1,7 +1,6 @@
 // plan and run: many sources, many workers.
 #include <gmock/gmock.h>
 
-#include <algorithm>
 #include <thread>
 
 #include "editor/cooker/jobs.h"

@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "tests/support/expect.h"
-#include "tests/support/files.h"
+#include "tests/support/folder_test.h"
 
 namespace rowland::inspector {
 namespace {
@@ -17,22 +17,20 @@ const Field& pitch() {
     return field_at("/grating/pitch_nm");
 }
 
-class DocumentTest : public testing::Test {
+class DocumentTest : public test::FolderTest {
  protected:
-    std::filesystem::path path(const std::string& name) const { return folder_.path() / name; }
     Document opened() const {
         std::filesystem::copy_file(kMaterials / "cd.json", path("cd.json"));
         return Document::open(path("cd.json"));
     }
-    test::TemporaryFolder folder_;
 };
 
 TEST_F(DocumentTest, OpeningAndSavingChangesNoByte) {
     Document document = opened();
     EXPECT_FALSE(document.dirty());
-    const std::string before = read_text_file(path("cd.json"), 1 << 20);
+    const std::string before = text("cd.json");
     document.save();
-    EXPECT_EQ(read_text_file(path("cd.json"), 1 << 20), before);
+    EXPECT_EQ(text("cd.json"), before);
 }
 
 TEST_F(DocumentTest, AnEditIsInTheFileAfterSavingAndNotBefore) {
@@ -244,7 +242,7 @@ TEST_F(DocumentTest, EditsAreRescuedToANewFile) {
     ASSERT_TRUE(document.refusal());
     EXPECT_EQ(document.rescue(), path("cd.unsaved.json"));
     EXPECT_EQ(document.rescue(), path("cd.unsaved-2.json"));
-    EXPECT_EQ(parse_ordered(read_text_file(path("cd.unsaved.json"), 1 << 20), "cd"), document.json());
+    EXPECT_EQ(parse_ordered(text("cd.unsaved.json"), "cd"), document.json());
     EXPECT_EQ(Document::open(path("cd.json")).json()["grating"]["pitch_nm"], 1600);
     document.undo();
     EXPECT_EQ(document.rescue(), std::nullopt);

@@ -11,7 +11,7 @@
 #include "engine/core/file.h"
 #include "engine/image/byte_image.h"
 #include "tests/support/expect.h"
-#include "tests/support/files.h"
+#include "tests/support/folder_test.h"
 
 namespace rowland::inspector {
 namespace {
@@ -30,16 +30,14 @@ const std::string kScene = R"({
 
 const Json kDvd = Json::parse(R"({"grating": {"pitch_nm": 740, "profile": {"type": "slit", "width_nm": 370}}})");
 
-class SceneDocument : public testing::Test {
+class SceneDocument : public test::FolderTest {
  protected:
     SceneDocument() { write_file_atomic(path("scene.gltf"), kScene); }
-    std::filesystem::path path(const std::string& name) const { return folder_.path() / name; }
     std::string text() const { return read_text_file(path("scene.gltf"), 1 << 20); }
     Json saved() const { return Json::parse(text()); }
     Document opened() const { return Document::open_scene(scene::EditableGltf::open(path("scene.gltf")), kBare); }
 
     static constexpr std::array kBare = {scene::PrimitiveId{.mesh = 0, .primitive = 0}};
-    test::TemporaryFolder folder_;
 };
 
 TEST_F(SceneDocument, TheFirstGratingIsChosenAndSavingItUnchangedKeepsAll) {

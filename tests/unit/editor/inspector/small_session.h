@@ -7,13 +7,13 @@
 #include "editor/inspector/session.h"
 #include "engine/core/file.h"
 #include "engine/platform/gl_context.h"
-#include "tests/support/files.h"
+#include "tests/support/folder_test.h"
 #include "tests/support/light.h"
 
 namespace rowland::inspector {
 
 /// A session without a window, whose picture is small and whose light is quick for the reference.
-class SmallSession : public testing::Test {
+class SmallSession : public test::FolderTest {
  protected:
     /// `base`: a member of the material, or nothing.
     explicit SmallSession(const std::string& base) {
@@ -24,7 +24,6 @@ class SmallSession : public testing::Test {
                 R"("quality": {"representation": "spikes", "bands": 3, "spikes": 2}})");
         session_.light.choose(path("sky.json"));
     }
-    std::filesystem::path path(const std::string& name) const { return folder_.path() / name; }
 
     void draw(int frames, bool with_saved = false) {
         for (int i = 0; i < frames; ++i) {
@@ -48,7 +47,6 @@ class SmallSession : public testing::Test {
     std::vector<std::uint8_t> display() const { return session_.view.preview().display().read_rgba8(); }
 
     static constexpr glm::ivec2 kSize{64, 48};
-    test::TemporaryFolder folder_;
     platform::HeadlessContext context_;
     post::OcioConfig config_ = post::OcioConfig::choose(std::nullopt);
     Session session_{config_, {.content_folder = test::source_path("content"), .still = true}};

@@ -3,7 +3,6 @@
 #include <gmock/gmock.h>
 
 #include <glm/common.hpp>
-#include <glm/geometric.hpp>
 
 #include "engine/colour/colour_space.h"
 #include "tests/support/files.h"

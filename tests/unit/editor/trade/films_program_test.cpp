@@ -1,10 +1,8 @@
 #include <gmock/gmock.h>
 
-#include <cmath>
-
 #include "engine/core/file.h"
 #include "tests/support/csv.h"
-#include "tests/support/files.h"
+#include "tests/support/folder_test.h"
 #include "tests/unit/editor/trade/trade_run.h"
 
 namespace rowland {
@@ -13,17 +11,14 @@ namespace {
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
-/// A film and light of radiance 1 from everywhere, RGBE (128, 128, 128, 129).
-class FilmsProgram : public ::testing::Test {
+/// A film and light of radiance 1 from everywhere.
+class FilmsProgram : public test::FolderTest {
  protected:
     FilmsProgram() {
-        std::string light = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 32 +X 64\n";
-        for (int i = 0; i < 32 * 64; ++i) light += "\x80\x80\x80\x81";
-        write("even.hdr", light);
+        write("even.hdr", test::uniform_hdr(64, 32));
         write("frames.csv",
               "vx,vy,vz,nx,ny,nz,gx,gy,gz\n0,2,0,0,1,0,1,0,0\n0.6,0.8,0,0,1,0,1,0,0\n0,-1,0,0,1,0,1,0,0\n");
     }
-    void write(const std::string& name, const std::string& text) { write_file_atomic(folder_.path() / name, text); }
     void write_film(const std::string& roughness) {
         write("film.json",
               R"({"film": {"ior": 1.3, "thickness_nm": 250}, "metal": "Ag", "roughness": )" + roughness + "}");
@@ -33,10 +28,8 @@ class FilmsProgram : public ::testing::Test {
             folder_.path(), "evaluate --material film.json --probe even.hdr --frames frames.csv --method " + method);
         EXPECT_EQ(run.code, 0) << run.err;
         write("results.csv", run.out);
-        return test::read_csv(folder_.path() / "results.csv");
+        return test::read_csv(path("results.csv"));
     }
-
-    test::TemporaryFolder folder_;
 };
 
 TEST_F(FilmsProgram, WritesAPictureAndHowFarOffTheFormulasAre) {

@@ -1,10 +1,8 @@
 #include "editor/trade/inputs.h"
 
 #include <glm/geometric.hpp>
-#include <glm/matrix.hpp>
 
 #include "engine/core/file.h"
-#include "tests/support/files.h"
 
 namespace rowland::trade {
 namespace {

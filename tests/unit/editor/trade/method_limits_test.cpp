@@ -6,7 +6,7 @@
 #include "modules/diffraction/asset/cooked_material.h"
 #include "modules/diffraction/asset/quality.h"
 #include "tests/support/files.h"
-#include "tests/support/program.h"
+#include "tests/unit/editor/trade/trade_run.h"
 
 namespace rowland::diffraction {
 namespace {
@@ -44,9 +44,7 @@ class MethodLimits : public ::testing::Test {
  protected:
     MethodLimits() {
         write_file_atomic(folder_.path() / "frames.csv", "vx,vy,vz,nx,ny,nz,gx,gy,gz\n0.3,0.9,0.2,0,1,0,1,0,0\n");
-        std::string probe = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 2 +X 4\n";
-        for (int i = 0; i < 8; ++i) probe += "\x80\x80\x80\x81";
-        write_file_atomic(folder_.path() / "probe.hdr", probe);
+        write_file_atomic(folder_.path() / "probe.hdr", test::uniform_hdr(4, 2));
     }
 
     /// Runs every program that takes a method, with a material that pins it for the cooker.

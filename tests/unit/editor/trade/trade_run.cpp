@@ -15,6 +15,12 @@ Ended run_trade(const std::filesystem::path& folder, const std::string& argument
     return run(trade_command(arguments), {.folder = folder, .limit = std::chrono::minutes(10)});
 }
 
+std::string uniform_hdr(int width, int height) {
+    std::string text = fmt::format("#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y {} +X {}\n", height, width);
+    for (int i = 0; i < width * height; ++i) text += "\x80\x80\x80\x81";
+    return text;
+}
+
 void write_sweep_inputs(const std::filesystem::path& folder) {
     write_file_atomic(folder / "cd.json",
                       R"({"grating": {"pitch_nm": 1600, "profile": {"type": "slit", "width_nm": 800}}})");

@@ -9,6 +9,9 @@ Command trade_command(const std::string& arguments);
 /// Runs it in a folder.
 Ended run_trade(const std::filesystem::path& folder, const std::string& arguments);
 
+/// A Radiance image of radiance 1, uncompressed.
+std::string uniform_hdr(int width, int height);
+
 /// Writes cd.json, and sky.hdr: a small probe with a sun.
 void write_sweep_inputs(const std::filesystem::path& folder);
 

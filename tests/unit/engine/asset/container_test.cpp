@@ -3,8 +3,6 @@
 #include <gmock/gmock.h>
 #include <zstd.h>
 
-#include <functional>
-
 #include "engine/core/byte_stream.h"
 #include "tests/support/expect.h"
 #include "tests/support/files.h"

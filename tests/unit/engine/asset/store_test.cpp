@@ -4,7 +4,7 @@
 
 #include "engine/core/error.h"
 #include "engine/core/file.h"
-#include "tests/support/files.h"
+#include "tests/support/folder_test.h"
 
 namespace rowland::asset {
 namespace {
@@ -13,9 +13,8 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-class StoreTest : public testing::Test {
+class StoreTest : public test::FolderTest {
  protected:
-    std::filesystem::path path(const std::string& name) const { return folder_.path() / name; }
     /// Two writes within one tick of the file system's clock must also differ.
     void write(const std::string& name, std::string_view text) {
         write_file_atomic(path(name), text);
@@ -41,8 +40,6 @@ class StoreTest : public testing::Test {
         store_.wait();
         return store_.poll() || news;
     }
-
-    test::TemporaryFolder folder_;
     Store store_{std::chrono::milliseconds(0)};
     std::atomic<int> loads_ = 0;
     int writes_ = 0;

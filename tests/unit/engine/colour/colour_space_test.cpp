@@ -1,7 +1,3 @@
-
-#include <glm/geometric.hpp>
-#include <glm/matrix.hpp>
-
 #include "engine/colour/colour_space.h"
 #include "engine/colour/illuminant.h"
 #include "tests/support/expect.h"

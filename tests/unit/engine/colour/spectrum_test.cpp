@@ -5,6 +5,7 @@
 
 #include "engine/colour/spectrum.h"
 #include "engine/core/error.h"
+#include "tests/support/expect.h"
 
 namespace rowland::colour {
 
@@ -36,13 +37,7 @@ TEST(SampledSpectrum, IsZeroOrClampedOutside) {
 constexpr const char* kHeader = "wavelength_nm,relative_power";
 
 std::string refusal(const std::string& text) {
-    try {
-        parse_spectrum_csv(text, "lamp.csv", kHeader);
-    } catch (const Error& error) {
-        EXPECT_EQ(error.info().fault, Fault::Input);
-        return error.what();
-    }
-    return "accepted";
+    return test::message_of([&] { parse_spectrum_csv(text, "lamp.csv", kHeader); });
 }
 
 TEST(SpectrumCsv, ReadsRowsWhateverTheLineEndsAndBlankLines) {

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "engine/core/error.h"
+#include "tests/support/expect.h"
 
 namespace rowland::lighting {
 namespace {
@@ -14,15 +15,9 @@ ProbeRecipe parse(const std::string& text) {
 }
 
 std::string refusal(const std::string& text) {
-    try {
-        parse(text);
-    } catch (const Error& error) {
-        EXPECT_EQ(error.info().fault, Fault::Input);
-        EXPECT_EQ(error.info().file, "p.json");
-        return error.what();
-    }
-    ADD_FAILURE() << "was not refused: " << text;
-    return {};
+    const std::string message = test::message_of([&] { parse(text); });
+    EXPECT_THAT(message, testing::StartsWith("p.json")) << text;
+    return message;
 }
 
 const std::string kRoom = R"("ceiling": [1,1,1], "wall": [1,1,1], "floor": [1,1,1])";

@@ -1,7 +1,5 @@
 #include <gtest/gtest.h>
 
-#include <algorithm>
-
 #include "engine/lighting/procedural_probe.h"
 #include "tests/unit/engine/lighting/made_probes.h"
 

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cstring>
-#include <limits>
 
 #include "engine/math/spherical_harmonics.h"
 #include "tests/support/threads.h"

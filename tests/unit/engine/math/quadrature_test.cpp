@@ -4,7 +4,6 @@
 #include <cmath>
 #include <complex>
 #include <numbers>
-#include <numeric>
 #include <vector>
 
 #include "engine/math/fourier_transform.h"

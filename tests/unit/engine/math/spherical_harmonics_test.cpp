@@ -1,6 +1,4 @@
-
 #include <algorithm>
-#include <utility>
 
 #include "engine/math/quadrature.h"
 #include "engine/math/spherical_harmonics.h"

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 #include <random>
@@ -101,15 +100,12 @@ void for_each_light_of_a_spectrum(const DisplayTransform& view, double most_ligh
 /// The default view. Its table is what differs from constant_hue(), which keeps hues exactly.
 TEST(ConstantHue, DefaultViewKeepsTheHueOfSpectralLight) {
     const DisplayTransform view(OcioConfig::shipped());
-    double worst = 0.0;
     // Above a lightness of 0.97 there is no chroma to see a hue of.
     for_each_light_of_a_spectrum(view, 0.97,
                                  [&](double wavelength_nm, double stops, glm::dvec3 light, glm::dvec3 shown) {
                                      const double shift = colour::oklab_hue_difference_deg(light, shown);
                                      EXPECT_LE(shift, 5.0) << wavelength_nm << " nm, " << stops << " stops";
-                                     worst = std::max(worst, shift);
                                  });
-    RecordProperty("worst_degrees", std::to_string(worst));
 }
 
 TEST(ConstantHue, AcesViewShiftsTheHueOfSpectralLight) {
@@ -181,8 +177,6 @@ TEST(ConstantHue, TableOfTheViewIsTheFormula) {
     }
     EXPECT_LE(worst, 0.06);
     EXPECT_LE(sum / count, 0.004);
-    RecordProperty("mean_display_value", std::to_string(sum / count));
-    RecordProperty("worst_display_value", std::to_string(worst));
     glm::vec3 black(0.0F);
     view.apply_cpu({&black, 1});
     EXPECT_NEAR(black.g, 0.0F, 1e-3F);

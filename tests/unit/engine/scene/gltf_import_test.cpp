@@ -2,9 +2,7 @@
 
 #include <gmock/gmock.h>
 
-#include <cmath>
 #include <cstring>
-#include <fstream>
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 

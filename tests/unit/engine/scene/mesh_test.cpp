@@ -14,7 +14,6 @@
 #include "engine/scene/mesh_recipe.h"
 #include "engine/scene/ray.h"
 #include "tests/support/expect.h"
-#include "tests/support/files.h"
 #include "tests/unit/engine/scene/mesh_sanity.h"
 
 namespace rowland::scene {

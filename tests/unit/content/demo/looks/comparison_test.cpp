@@ -3,17 +3,6 @@
 
 #include <gmock/gmock.h>
 
-#include <chrono>
-#include <filesystem>
-#include <map>
-#include <thread>
-
-#include "engine/lighting/probe_image.h"
-#include "engine/render/surface_textures.h"
-#include "engine/scene/animation.h"
-#include "modules/diffraction/asset/groove_pitches.h"
-#include "modules/diffraction/asset/material.h"
-#include "modules/diffraction/asset/quality.h"
 #include "modules/diffraction/evaluate/point_shader.h"
 #include "modules/diffraction/module.h"
 #include "modules/diffraction/runtime/vertex_light.h"

@@ -1,12 +1,6 @@
 #include "content/demo/looks/look.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <variant>
-
-#include "modules/diffraction/asset/cooked_material.h"
-#include "modules/diffraction/asset/material.h"
 
 namespace rowland::demo {
 namespace {

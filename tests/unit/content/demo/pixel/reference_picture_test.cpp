@@ -1,13 +1,6 @@
 // The reference's picture, beside a grating on a context without a window.
 #include "content/demo/pixel/reference_picture.h"
 
-#include <chrono>
-#include <thread>
-
-#include "content/demo/pixel/pixel_meter.h"
-#include "content/demo/pixel/surface_point.h"
-#include "engine/core/file.h"
-#include "modules/diffraction/asset/material.h"
 #include "modules/diffraction/evaluate/error_measure.h"
 #include "modules/diffraction/module.h"
 #include "modules/diffraction/reference/reference.h"

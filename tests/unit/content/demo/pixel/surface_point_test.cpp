@@ -1,7 +1,4 @@
-#include <gtest/gtest.h>
-#include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
-#include <glm/gtc/quaternion.hpp>
 
 #include "content/demo/pixel/surface_point.h"
 #include "engine/scene/mesh_recipe.h"

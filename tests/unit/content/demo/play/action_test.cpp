@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <set>
 
-#include "engine/platform/input.h"
-
 namespace rowland::demo {
 namespace {
 

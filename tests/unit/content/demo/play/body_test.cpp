@@ -1,11 +1,7 @@
 #include <gtest/gtest.h>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <numbers>
-#include <vector>
 
-#include "content/demo/play/body.h"
-#include "engine/scene/transform.h"
 #include "tests/unit/content/demo/play/small_world.h"
 
 namespace rowland::demo {

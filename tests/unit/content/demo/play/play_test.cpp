@@ -1,15 +1,10 @@
 #include "content/demo/play/play.h"
-#include "content/demo/play/body.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <numbers>
-#include <vector>
 
-#include "engine/scene/light.h"
-#include "engine/scene/transform.h"
 #include "tests/unit/content/demo/play/small_world.h"
 
 namespace rowland::demo {

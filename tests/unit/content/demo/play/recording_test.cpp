@@ -1,9 +1,6 @@
 #include "content/demo/play/recording.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <string>
 
 #include "engine/core/file.h"
 #include "tests/support/expect.h"

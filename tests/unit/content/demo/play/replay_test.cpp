@@ -1,12 +1,8 @@
 // A play knows nothing of frames.
-#include <gtest/gtest.h>
 
 #include <cmath>
-#include <vector>
 
-#include "content/demo/play/body.h"
 #include "content/demo/play/recording.h"
-#include "engine/scene/transform.h"
 #include "tests/support/files.h"
 #include "tests/unit/content/demo/play/small_world.h"
 

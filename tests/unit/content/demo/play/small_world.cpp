@@ -1,10 +1,6 @@
 #include "tests/unit/content/demo/play/small_world.h"
 
 #include <cmath>
-#include <memory>
-#include <numbers>
-
-#include "engine/scene/transform.h"
 
 namespace rowland::test {
 

@@ -52,13 +52,6 @@ TEST(LayerWeights, BothSidesOfASheetTakeFromTheBase) {
     EXPECT_LT(reflected.mirror.y, layer_weights(sheet).mirror.y);  // in reflection the relief is four times as deep
 }
 
-TEST(LayerWeights, GoldTintsTheZeroOrder) {
-    Grating grating{.pitch_nm = 1600.0, .profile = SlitProfile{.width_nm = 800.0}, .metal = colour::Metal::Au};
-    const LayerWeights weights = layer_weights(grating);
-    EXPECT_LT(weights.mirror.y, 0.25);
-    EXPECT_LT(weights.mirror.z, 0.7 * weights.mirror.y);  // gold takes the blue
-}
-
 /// Mirror, base and listed orders share out white light: no more than came in, and, but where the orders alone take it
 /// all, no less. A table's rows sum to 1.0004 here, which is scaled away.
 TEST(LayerWeights, NothingComesOutThatDidNotFallIn) {

@@ -191,11 +191,6 @@ TEST(Method, TextReadsBackAsItself) {
     }
 }
 
-TEST(Method, NamesOfDifferentMethodsDiffer) {
-    EXPECT_NE(method_name(parse_method("arc/bands=5")), method_name(parse_method("arc/bands=5/key_lights=4")));
-    EXPECT_NE(method_name(parse_method("arc")), method_name(parse_method("arc/window=lanczos")));
-}
-
 TEST(Method, BadTextIsRefusedByName) {
     EXPECT_THAT(rowland::test::message_of([] { parse_method("arc/bands"); }), HasSubstr("\"bands\""));
     EXPECT_THAT(rowland::test::message_of([] { parse_method("arc/=3"); }), HasSubstr("name=value"));

@@ -1,7 +1,6 @@
 // What a budget picks for a compact disc keeps its promises.
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
 #include <glm/geometric.hpp>
 #include <random>

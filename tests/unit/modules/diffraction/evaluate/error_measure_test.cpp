@@ -172,12 +172,5 @@ TEST(DrawnViews, FollowTheMaterial) {
     EXPECT_NE(pictures.parts[0][0].view, pictures.parts[1][0].view);
 }
 
-TEST(FrameSets, FlatIsOnePlaneAndCurvedMany) {
-    const std::vector<ShadingPoint> flat = measured_frames(SurfaceShape::Flat);
-    for (const ShadingPoint& frame : flat) EXPECT_EQ(frame.normal, flat.front().normal);
-    const std::vector<ShadingPoint> curved = measured_frames(SurfaceShape::Curved);
-    EXPECT_LT(glm::dot(curved.front().normal, curved.back().normal), 0.99);
-}
-
 }  // namespace
 }  // namespace rowland::diffraction

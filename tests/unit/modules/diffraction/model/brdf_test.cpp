@@ -1,6 +1,4 @@
-
 #include <cmath>
-#include <glm/geometric.hpp>
 #include <numbers>
 
 #include "modules/diffraction/model/brdf.h"

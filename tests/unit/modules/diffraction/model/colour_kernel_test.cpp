@@ -1,7 +1,5 @@
 #include "modules/diffraction/model/colour_kernel.h"
 
-#include <fmt/format.h>
-
 #include <glm/geometric.hpp>
 
 #include "engine/core/file.h"
@@ -86,7 +84,6 @@ TEST(ColourKernel, CellsOfItsAntiderivativeGiveTheBandlimitedOracle) {
         for (const auto& [cells, bound] : {std::pair{32, 0.0045}, {64, 0.0018}, {128, 0.00055}, {1024, 1e-4}}) {
             const double error =
                 test::relative_rms(radiance(one.grating, one.frames, light, colour::LightSpectra(), cells), one.xyz);
-            RecordProperty(fmt::format("{}_{}", one.name, cells), fmt::format("{:.3g}", error));
             EXPECT_LT(error, bound) << one.name << " " << cells;
         }
     }
@@ -168,7 +165,6 @@ TEST(ColourKernel, OfFewGroovesAgreesWithTheReference) {
         const colour::LightSpectra spectra;
         const auto expected = reference_radiance(few, light, spectra, one.frames);
         const double error = test::relative_rms(radiance(few, one.frames, light, spectra, 1024), expected);
-        RecordProperty(fmt::format("grooves_{}", grooves), fmt::format("{:.3g}", error));
         EXPECT_LT(error, 5e-5) << grooves;
     }
 }
@@ -241,7 +237,6 @@ TEST(KernelTable, KeepsTheAntiderivative) {
     const ColourKernel kernel(compact_disc(), colour::LightSpectra());
     const KernelTable table = tabulate(kernel);
     EXPECT_EQ(table.antiderivative.size(), 2048U);
-    RecordProperty("error_2048", fmt::format("{:.3g}", table.error));
     EXPECT_GT(table.error, 0.0);
     EXPECT_LT(table.error, 2e-4);
     // Halving the step quarters the error, until single precision's 6e-8.
@@ -258,7 +253,6 @@ TEST(KernelTable, KeepsTheAntiderivative) {
                 difference = std::max(difference, std::abs(table.average(x, x + 60.0)[c][o] - exact[c][o]));
             }
     }
-    RecordProperty("average_60nm", fmt::format("{:.3g}", difference / largest));
     EXPECT_LT(difference / largest, 4e-4);
     EXPECT_EQ(table.at(-1e9), table.at(kernel.begin_nm()));
     EXPECT_EQ(table.at(1e9), table.at(kernel.end_nm()));

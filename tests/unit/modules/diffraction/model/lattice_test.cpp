@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <complex>
 #include <glm/geometric.hpp>
 #include <numbers>

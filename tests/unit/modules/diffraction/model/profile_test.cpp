@@ -1,11 +1,8 @@
 // A profile is described once. The schema and the page, which are written by hand, agree with the descriptors.
 
-#include <algorithm>
 #include <cmath>
-#include <functional>
 #include <map>
 #include <numbers>
-#include <random>
 #include <set>
 
 #include "engine/core/file.h"

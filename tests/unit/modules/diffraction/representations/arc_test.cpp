@@ -1,7 +1,5 @@
 // Key lights and the bands that they leave, under captured probes.
 
-#include <fmt/format.h>
-
 #include "engine/image/image.h"
 #include "engine/lighting/probe_image.h"
 #include "modules/diffraction/bake/arc_moments.h"
@@ -33,10 +31,7 @@ TEST(ArcTable, MatchesTheBandlimitedOracle) {
         if (!is_flat(one.grating.lobe)) continue;
         const auto views = test::tangent_views(light, one.frames);
         const auto error = [&](int rank) {
-            const double found =
-                relative_rms(test::evaluated(bake(one.grating, ArcSettings{.rank = rank}), views), one.xyz);
-            RecordProperty(fmt::format("{}_{}", one.name, rank), fmt::format("{:.3g}", found));
-            return found;
+            return relative_rms(test::evaluated(bake(one.grating, ArcSettings{.rank = rank}), views), one.xyz);
         };
         EXPECT_LT(error(8), 0.03) << one.name;
         EXPECT_LT(error(16), 0.002) << one.name;
@@ -84,7 +79,6 @@ TEST(ArcTable, TableErrorFallsWithTheRank) {
         for (const auto& [rank, bound] :
              {std::pair{4, 0.11}, {6, 0.055}, {8, 0.025}, {12, 0.005}, {16, 0.0012}, {kEverything, 1e-6}}) {
             const double error = table_error(grating, rank);
-            RecordProperty(fmt::format("{}_{}", name, rank), fmt::format("{:.3g}", error));
             EXPECT_LT(error, bound) << name << " " << rank;
         }
 }
@@ -126,7 +120,6 @@ TEST(ArcTable, OfALobeErrsByItsRankAlone) {
         const ArcTable table = bake(foil(), ArcSettings{.rank = rank, .grid = grid, .storage = Storage::Float});
         EXPECT_EQ(table.terms, LightTerms::Harmonics);
         const double error = relative_rms(test::evaluated(table, views), expected);
-        RecordProperty(fmt::format("rank_{}", rank), fmt::format("{:.3g}", error));
         EXPECT_LT(error, bound) << rank;
     }
 }
@@ -141,7 +134,6 @@ TEST(ArcTable, MatchesTheBandlimitedOracleForALobe) {
     const auto views = test::tangent_views(test::read_sh_light(light_path), one.frames);
     const double error =
         relative_rms(test::evaluated(bake(one.grating, ArcSettings{.rank = kEverything}), views), one.xyz);
-    RecordProperty("error", fmt::format("{:.3g}", error));
     EXPECT_LT(error, 0.01);
 }
 
@@ -161,7 +153,6 @@ TEST(ArcTable, PitchAxisFollowsThePitch) {
         for (const auto& view : views) found.push_back(evaluate(table, view.light, view.view, factor));
         const double error =
             relative_rms(found, test::evaluated(bake(scaled, ArcSettings{.rank = kEverything}), views));
-        RecordProperty(fmt::format("factor_{}", factor), fmt::format("{:.3g}", error));
         EXPECT_LT(error, 3e-3) << factor;
     }
 }
@@ -235,7 +226,6 @@ TEST_P(ArcWithKeyLights, MatchesTheOracleOfTheTiltedDisc) {
     const lighting::ProbeImage probe(image::load_image(probe_path), one.mapping);
     const double error =
         test::relative_rms(lit(probe, 32, frames), test::read_xyz(rowland::test::read_csv(oracle_path)));
-    RecordProperty("error", fmt::format("{:.3g}", error));
     EXPECT_LT(error, one.tolerance);
 }
 
@@ -259,10 +249,8 @@ TEST_P(ArcWithoutKeyLights, IsFartherFromTheReference) {
     const lighting::ProbeImage probe(image::load_image(path), lighting::Mapping::Auto);
     const auto expected = reference_radiance(compact_disc(), probe, colour::LightSpectra(), frames);
     const double without = test::relative_rms(lit(probe, 0, frames), expected);
-    RecordProperty("none", fmt::format("{:.3g}", without));
     for (const int count : {4, 8, 16, 32}) {
         const double error = test::relative_rms(lit(probe, count, frames), expected);
-        RecordProperty(fmt::format("lights_{}", count), fmt::format("{:.3g}", error));
         EXPECT_LT(error, without) << count;
     }
 }

@@ -1,5 +1,3 @@
-
-#include <fmt/format.h>
 #include <glm/geometric.hpp>
 #include <numbers>
 
@@ -7,7 +5,6 @@
 #include "modules/diffraction/representations/circle/circle.h"
 #include "modules/diffraction/representations/circle/circle_map.h"
 #include "modules/diffraction/representations/planar/planar_map.h"
-#include "tests/support/files.h"
 #include "tests/support/threads.h"
 #include "tests/unit/modules/diffraction/representations/probe_maps.h"
 
@@ -75,7 +72,6 @@ TEST(CircleMap, AgreesWithPlanarMapsOfAnyNormal) {
         const CircleMap map = fill_circle_map(texels, kernel, grating.pitch_nm, {32, 64, 14});
         EXPECT_EQ(map.charts, grating.orders.size() == 1 ? 2 : 1);
         const double error = relative_rms(sampled(map, expected.frames), expected.xyz);
-        RecordProperty(map.charts == 1 ? "even" : "blazed", fmt::format("{:.3g}", error));
         EXPECT_LT(error, 0.02);
     }
 }
@@ -118,7 +114,6 @@ TEST(CircleMap, TheRestOfTheSeriesCountsInAirAndUnderACover) {
         };
         const double with = error(circle_angles(grating.cover));
         const double without = error(0);
-        RecordProperty(covered ? "covered" : "air", fmt::format("{:.3g} {:.3g}", with, without));
         EXPECT_LT(with, 0.02);
         EXPECT_GT(without, 1.5 * with);
     }

@@ -5,7 +5,6 @@
 #include <array>
 #include <functional>
 #include <glm/geometric.hpp>
-#include <glm/matrix.hpp>
 #include <numbers>
 #include <utility>
 
@@ -121,7 +120,6 @@ TEST(Direct, LobeIsItsArcIntegral) {
             const auto expected = exact(kernels, FlatLobe{}, key);
             const double slices = relative_rms(radiance(kernels.table, {1600.0}, key), expected);
             const double smoothed = relative_rms(radiance(kernels.blurred, {1600.0}, key), expected);
-            RecordProperty(fmt::format("k{}_{}", concentration, s_n), fmt::format("{:.3g} {:.3g}", slices, smoothed));
             EXPECT_LT(slices, 0.004) << concentration << " " << s_n;
             EXPECT_LT(smoothed, 0.004) << concentration << " " << s_n;
         }
@@ -141,7 +139,6 @@ TEST(Direct, NarrowLobesAreTheirSlices) {
             one_look.push_back(direct_radiance(fine, {1600.0}, spot, {frame.view.x, frame.view.y, 0.0}));
         }
         const double error = relative_rms(one_look, radiance(kernels.table, {1600.0}, key));
-        RecordProperty(fmt::format("k{}", concentration), fmt::format("{:.3g}", error));
         EXPECT_LT(error, concentration < 2e5 ? 0.002 : 0.006) << concentration;
     }
 }
@@ -156,7 +153,6 @@ TEST(Direct, LobeAboutTheGratingVectorIsItsArcIntegral) {
                 const lighting::KeyLight key{toward(s_g, s_n), {1.0, 0.5, 0.25}, concentration};
                 const auto expected = exact(kernels, FlatLobe{}, key);
                 const double error = relative_rms(radiance(kernels.table, {1600.0}, key), expected);
-                RecordProperty(fmt::format("k{}_{}_{}", concentration, s_g, s_n), fmt::format("{:.3g}", error));
                 EXPECT_LT(error, 0.008) << concentration << " " << s_g << " " << s_n;
             }
 }
@@ -349,7 +345,6 @@ TEST(PatternLight, ALobeIsTheReferences) {
                 lit, lobe[0].direction, light_of(radiance, lit.deviation),
                 [&](const ShadingPoint& frame) { return pattern_radiance(pictures, std::nullopt, lobe, frame); });
             const std::string name = fmt::format("{}_{:.0f}", lit.name, one.inclination_deg);
-            RecordProperty(name, fmt::format("{:.3g}", found.error));
             EXPECT_LT(found.error, one.tolerance) << name;
             for (int o = 0; o < 3; ++o) EXPECT_NEAR(found.light[o], 1.0, 0.04) << name;
         }
@@ -369,7 +364,6 @@ TEST(PatternLight, ADiscSendsTheReferencesLight) {
         const Comparison found = compare(
             lit, kToward, light_of(radiance, 0.2 * lit.deviation),
             [&](const ShadingPoint& frame) { return pattern_radiance(picture, light, glm::dvec2(frame.view)); });
-        RecordProperty(lit.name, fmt::format("{:.3g}", found.error));
         EXPECT_LT(found.error, 0.5) << lit.name;
         for (int o = 0; o < 3; ++o) EXPECT_NEAR(found.light[o], 1.0, 0.05) << lit.name;
     }

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 #include <glm/gtx/component_wise.hpp>
-#include <numbers>
 
 #include "engine/lighting/procedural_probe.h"
 #include "modules/diffraction/asset/material.h"
@@ -133,7 +132,6 @@ TEST(LobeMap, EqualsTheReferenceUnderSmoothLight) {
         const LobeMapViews views = grating.lattice ? LobeMapViews{.g = 96, .h = 80} : LobeMapViews{.g = 64, .h = 64};
         const double error = map_error(grating, light, texels, grating.lattice ? up_to_75_degrees : points,
                                        {.azimuths = 32, .views = views});
-        RecordProperty(name, fmt::format("{:.3g}", error));
         EXPECT_LT(error, grating.lattice ? 0.021 : 0.012) << name;
     }
 }
@@ -149,9 +147,7 @@ TEST(LobeMap, MatchesEnnisThroughANarrowLobe) {
     const auto expected = reference_radiance(grating, IncidentLight(probe), colour::LightSpectra(), frames);
     const lighting::LightSamples texels = lighting::light_samples(probe);
     const auto error = [&](const LobeMapSize& size) {
-        const double found = relative_rms(samples(lobe_map(grating, texels, frames[0].normal, size), frames), expected);
-        RecordProperty(fmt::format("views_{}", size.views.g), fmt::format("{:.3g}", found));
-        return found;
+        return relative_rms(samples(lobe_map(grating, texels, frames[0].normal, size), frames), expected);
     };
     EXPECT_LT(error({}), 0.02);
     EXPECT_LT(error(kCoarseLobeMap), 0.15);
@@ -234,7 +230,6 @@ TEST(LatticeMapUnderALamp, HasNoRings) {
         errors.push_back(std::abs(sample(map, frames[i]).y / expected[i].y - 1.0));
     std::sort(errors.begin(), errors.end());
     const double most = errors[errors.size() * 9 / 10];
-    RecordProperty("nine_of_ten", fmt::format("{:.3g}", most));
     EXPECT_LT(most, 0.1);
 }
 
@@ -322,8 +317,6 @@ void expect_no_rings(const std::string& capture, const std::vector<const char*>&
         const Material material = load_material(rowland::test::content_path(fmt::format("materials/{}.json", name)));
         const Deviation found =
             deviation_around_a_lamp(material, probe, glm::normalize(glm::dvec3(-0.3, 0.3, 0.9)), points);
-        ::testing::Test::RecordProperty(fmt::format("{}_{}", capture, name),
-                                        fmt::format("{:.3g}, {:.3g}", found.below_zero, found.outside));
         EXPECT_LT(found.below_zero, 0.002) << capture << " " << name;
         EXPECT_LT(found.outside, 0.05) << capture << " " << name;
     }
@@ -383,7 +376,6 @@ TEST_P(LatticeMap, OfOneAzimuthIsWithinTwoPerCentOfTheReference) {
         std::vector<glm::dvec3> expected = reference_radiance(grating, probe, colour::LightSpectra(), frames);
         leave_out_the_doubtful(grating, probe, frames, found, expected);
         const double error = relative_rms(found, expected);
-        RecordProperty(name, fmt::format("{:.3g}", error));
         EXPECT_LT(error, 0.02) << name;
     }
 }

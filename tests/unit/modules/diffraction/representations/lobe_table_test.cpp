@@ -63,8 +63,6 @@ TEST(LobeTable, IsTheLobe) {
     for (const auto& one : cases)
         for (const double around : {0.0, 0.7, 1.2}) {
             const double error = error_of(one.concentration, around, 0.0);
-            RecordProperty("error_" + std::to_string(one.concentration) + "_" + std::to_string(around),
-                           std::to_string(error));
             EXPECT_LT(error, one.tolerance) << one.concentration << " " << around;
         }
 }
@@ -78,8 +76,6 @@ TEST(LobeTable, SmoothsOverAFootprint) {
     for (const double concentration : {300.0, 3000.0, 1e5, 1e6})
         for (const double footprint : {0.003, 0.01, 0.05, 0.2}) {
             const double error = error_of(concentration, 0.3, footprint);
-            RecordProperty("error_" + std::to_string(concentration) + "_" + std::to_string(footprint),
-                           std::to_string(error));
             // Measured: up to .3 %, and .9 % of lobes that are wider than the kernel's features.
             EXPECT_LT(error, concentration < 1000.0 ? 0.015 : 0.004) << concentration << " " << footprint;
         }

@@ -1,4 +1,3 @@
-
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 #include <glm/gtx/component_wise.hpp>
@@ -51,7 +50,6 @@ TEST(PlanarMap, MatchesTheBandlimitedOracle) {
         std::vector<glm::dvec3> found;
         for (const ShadingPoint& frame : one.frames) found.push_back(sample(map, frame));
         const double error = relative_rms(found, one.xyz);
-        RecordProperty(one.name, fmt::format("{:.3g}", error));
         EXPECT_LT(error, 1e-3) << one.name;
     }
     EXPECT_GE(flat, 3);
@@ -170,7 +168,6 @@ TEST(PlanarMap, ASmallLampIsAsBrightBetweenAzimuthsAsAtThem) {
         largest = std::max(largest, value);
     }
     const double mean = sum / kSteps;
-    RecordProperty("range", fmt::format("{:.3g} to {:.3g}", least / mean, largest / mean));
     EXPECT_GT(least, 0.5 * mean);
     EXPECT_LT(largest, 1.7 * mean);
 }
@@ -198,7 +195,6 @@ TEST(PlanarMap, ViewsAreBestForLinearInterpolation) {
             product += change * (sample(few, phi, 2.0 * i / (kSteps * kFiner) - 1.0).y - exact(i));
             square += change * change;
         }
-    RecordProperty("coefficient", fmt::format("{:.3g}", product / square));
     EXPECT_NEAR(product / square, 0.0, 0.01);
 }
 
@@ -222,7 +218,6 @@ TEST(PlanarMap, PitchesBetweenSlicesAreInterpolated) {
             found.push_back(sample(map, 0.1 * i, v_g, factor));
         }
         const double error = relative_rms(found, expected);
-        RecordProperty(fmt::format("position_{}", static_cast<int>(1000.0 * position)), fmt::format("{:.3g}", error));
         EXPECT_LT(error, 0.02) << position;
     }
 }
@@ -303,8 +298,6 @@ TEST(FlatMapAroundALamp, IsNeverNegativeAndHasNoStripes) {
                 below_zero = std::max(below_zero, -glm::compMin(shown[i]) / most);
                 outside = std::max({outside, (least - shown[i].y) / most, (shown[i].y - most) / most});
             }
-            RecordProperty(fmt::format("{}_{}", capture, along_azimuth),
-                           fmt::format("{:.3g}, {:.3g}", below_zero, outside));
             EXPECT_LT(below_zero, 0.002) << capture << along_azimuth;
             EXPECT_LT(outside, 0.02) << capture << along_azimuth;
         }

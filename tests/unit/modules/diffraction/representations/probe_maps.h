@@ -1,7 +1,5 @@
 #pragma once
 
-#include <fmt/format.h>
-
 #include "engine/image/image.h"
 #include "engine/lighting/environment_map.h"
 #include "engine/lighting/key_lights.h"
@@ -70,7 +68,6 @@ void matches_oracle(const OracleProbe& probe, const std::string& frame_set, cons
     const double error =
         relative_rms(radiance(fill(light.texels, kernel, frames.front().normal), kernel, light.keys, frames),
                      read_xyz(rowland::test::read_csv(oracle_path)));
-    ::testing::Test::RecordProperty("error", fmt::format("{:.3g}", error));
     EXPECT_LT(error, probe.tolerance) << probe.name;
 }
 

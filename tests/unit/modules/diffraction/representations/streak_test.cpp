@@ -1,4 +1,3 @@
-
 #include <glm/matrix.hpp>
 
 #include "engine/image/image.h"
@@ -55,7 +54,6 @@ TEST(Streak, MatchesTheReferenceUnderARealProbe) {
     double last = 1.0;
     for (const auto& [resolution, largest] : {std::pair(64, 0.1), std::pair(192, 0.03)}) {
         const double error = error_of(grating, resolution, probe, frames, expected);
-        RecordProperty("map_" + std::to_string(resolution), std::to_string(error));
         EXPECT_LT(error, largest) << resolution;
         EXPECT_LT(error, last);
         last = error;

@@ -1,8 +1,6 @@
 // Tables of covered gratings hold T(s_n); the caller multiplies with T(v_n) (PHYSICS §10).
 // Tables of lattices over light as spherical harmonics.
 
-#include <fmt/format.h>
-
 #include "modules/diffraction/bake/view_spectrum.h"
 #include "modules/diffraction/reference/reference.h"
 #include "modules/diffraction/representations/arc/arc_table.h"
@@ -34,7 +32,6 @@ TEST(CoveredTables, MatchTheBandlimitedOracle) {
         const double exact =
             error_of(bake(one.grating, ArcSettings{.rank = 1000, .grid = fine, .storage = Storage::Float}), one, views);
         const double eight = error_of(bake(one.grating, ArcSettings{.rank = 8}), one, views);
-        RecordProperty(one.name, fmt::format("{:.3g} {:.3g}", exact, eight));
         EXPECT_LT(exact, 1e-4) << one.name;
         EXPECT_LT(eight, 0.03) << one.name;
         ++cases;
@@ -109,7 +106,6 @@ TEST(LatticeTables, MatchTheBandlimitedOracle) {
                 exact.back() += coefficients[i] * at.light.coefficients[i];
         }
         const double sixteen = error(test::evaluated(bake(grating, ArcSettings{.rank = 16}), one.views));
-        RecordProperty(one.expected.name, fmt::format("{:.3g} {:.3g}", error(exact), sixteen));
         EXPECT_LT(error(exact), one.expected.grating.lattice->orders > 4 ? 4e-3 : 5e-4) << one.expected.name;
         EXPECT_LT(sixteen, 3e-2) << one.expected.name;
     }
