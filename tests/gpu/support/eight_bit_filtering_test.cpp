@@ -1,5 +1,6 @@
 // The filtering that the GPU tests can run with.
 #include "tests/support/eight_bit_filtering.h"
+#include "engine/core/error.h"
 
 #include <algorithm>
 #include <cmath>

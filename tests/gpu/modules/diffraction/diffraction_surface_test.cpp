@@ -1,6 +1,7 @@
 // What all representations have in common: one component, whatever shades it.
 #include <gmock/gmock.h>
 
+#include "engine/colour/colour_space.h"
 #include "tests/gpu/modules/diffraction/grating_picture.h"
 #include "tests/support/expect.h"
 #include "tests/support/light.h"

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 
 #include "engine/scene/mesh_recipe.h"
+#include "tests/support/program.h"
 #include "tests/unit/editor/inspector/small_session.h"
 #include "tests/unit/engine/scene/hand_written_gltf.h"
 

@@ -1,5 +1,7 @@
 #include "editor/trade/inputs.h"
 
+#include <gtest/gtest.h>
+
 #include <glm/geometric.hpp>
 
 #include "engine/core/file.h"

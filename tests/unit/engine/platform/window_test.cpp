@@ -12,6 +12,7 @@
 #include "engine/platform/gl_context.h"
 #include "engine/platform/window.h"
 #include "tests/support/expect.h"
+#include "tests/support/program.h"
 
 // Needs a display (on_virtual_display.cpp) and xdotool, which moves the pointer and the keys as the server's own
 // devices do.
