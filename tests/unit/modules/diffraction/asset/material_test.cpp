@@ -257,8 +257,6 @@ TEST(MaterialJson, MembersOutOfTheirDomainAreRefusedByFileAndPointer) {
     cases.push_back({solved(kTable, "", ""), {"/grating/theory", "relief"}});
     cases.push_back({solved(kSlit, "", al), {"/grating/theory", "relief"}});
     cases.push_back({solved(sine, "", ""), {"/grating/theory", "metal"}});
-    cases.push_back({solved(R"({"type": "slit", "width_nm": 300})", "", R"(, "transmission": {"ior": 1.5})"),
-                     {"/grating/theory", "relief"}});
     cases.push_back({solved(sine, R"(, "grooves": 20)", al), {"/grating/grooves", "rigorous"}});
     constexpr const char* deep = R"({"type": "sinusoidal", "depth_nm": 6401})";
     cases.push_back({solved(deep, "", al), {"/grating/theory", "6401"}});
