@@ -89,7 +89,6 @@ TEST(RigorousEfficiencies, ASheetSendsOnWhatItsReliefDoesFromInside) {
         Profile sheet;
         decltype(Relief::shape) upside_down;
     } rows[] = {{LamellarProfile{0.3, 400.0}, LamellarProfile{0.7, 400.0}},
-                {SinusoidalProfile{320.0}, SinusoidalProfile{320.0}},
                 {BlazedProfile{600.0}, BlazedProfile{600.0}}};
     for (const auto& row : rows) {
         SCOPED_TRACE(row.sheet.index());
@@ -99,8 +98,8 @@ TEST(RigorousEfficiencies, ASheetSendsOnWhatItsReliefDoesFromInside) {
         const Relief inside{.pitch_nm = sheet.pitch_nm, .shape = row.upside_down, .ambient_ior = 1.5};
         double squares = 0.0;
         double differences = 0.0;
-        for (const double wavelength_nm : {450.0, 550.0, 640.0})
-            for (const double s_g : {-0.6, -0.2, 0.1, 0.5}) {
+        for (const double wavelength_nm : {450.0, 640.0})
+            for (const double s_g : {-0.6, 0.1, 0.5}) {
                 double sum = 0.0;
                 for (const int order : grid->orders) {
                     const double v_g = order * wavelength_nm / sheet.pitch_nm - s_g;
@@ -122,7 +121,7 @@ TEST(RigorousEfficiencies, ASheetSendsOnWhatItsReliefDoesFromInside) {
 }
 
 TEST(RigorousEfficiencies, ACoarseSheetNearsScalarTheoryAndKeepsWhatItReflects) {
-    Grating sheet{.pitch_nm = 2000.0, .profile = BlazedProfile{200.0}, .theory = Theory::Rigorous};
+    Grating sheet{.pitch_nm = 1200.0, .profile = BlazedProfile{120.0}, .theory = Theory::Rigorous};
     sheet.transmission = Transmission{.ior = 1.5};
     const auto grid = rigorous_efficiencies(sheet, "sheet");
     Grating scalar = sheet;
