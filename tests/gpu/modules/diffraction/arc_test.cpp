@@ -18,6 +18,7 @@ TEST_F(Arc, PixelsEqualTheCpuEvaluation) {
         show(cooked, -0.4);
         expect_drawn(arc_xyz(cooked, light_.sh));
         EXPECT_GT(compared_, 500);
+        EXPECT_GT(brightest_, 0.05);
     }
 }
 

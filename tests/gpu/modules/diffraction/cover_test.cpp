@@ -125,6 +125,7 @@ TEST_F(CoverGloss, ReflectsTheEnvironmentOverOrderZero) {
         return (1.0 - passed + passed * passed * mirror) * white;
     };
     expect_drawn(with_gloss);
+    EXPECT_GT(compared_, 500);
     use(complete_mirror(false));
     expect_drawn([&](const Point&) { return mirror * white; });
 }
@@ -162,6 +163,7 @@ TEST_F(CoverGloss, LightsShineThroughItAndHaveHighlightsInIt) {
                                                                                  footprint_of_lamp(point, from));
     };
     expect_drawn(expected, nullptr, 2.0 * kPictureTolerance);
+    EXPECT_GT(brightest_, 0.1);
 }
 
 /// Key lights and directional lights at the vertices: T(s_n) there, T(v_n) at the pixels.

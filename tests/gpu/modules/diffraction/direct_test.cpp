@@ -142,6 +142,7 @@ TEST_F(Direct, RigorousEfficienciesEqualTheCpu) {
         CookedMaterial at_normal_incidence = cooked;
         at_normal_incidence.kernel = tabulate(ColourKernel(cooked.material.grating, colour::LightSpectra()));
         EXPECT_GT(largest_difference(draw(), expected(at_normal_incidence)), 0.05);
+        EXPECT_GT(brightest_, 0.02);
     }
 }
 
@@ -164,6 +165,7 @@ TEST_F(Direct, DiscsEqualTheCpu) {
             };
         };
         expect_drawn(expected(radius));
+        EXPECT_GT(brightest_, 0.02);
         EXPECT_GT(largest_difference(draw(), expected(0.0)), 0.05);
     }
 }
@@ -190,6 +192,7 @@ TEST_F(Direct, LightsOfOtherColoursEqualTheCpu) {
             return xyz;
         };
         expect_drawn(expected);
+        EXPECT_GT(brightest_, 0.05);
         for (const ecs::Entity light : lights) world_.destroy(light);
     }
 }
@@ -218,6 +221,7 @@ TEST_F(Direct, PointLightsShineOnEveryRepresentation) {
             return small_light_xyz(cooked, point, l, irradiance, footprint_of_lamp(point, position), radius) +
                    base_xyz(cooked, point, l, irradiance, camera_.eye, radius);
         });
+        EXPECT_GT(brightest_, 0.05);
     }
 }
 

@@ -4,13 +4,20 @@
 
 namespace rowland::diffraction {
 
+namespace {
+
+nlohmann::json material_json(const std::string& grating, const std::string& quality, const std::string& others = "") {
+    return parse_json("{\"grating\":" + grating + ",\"quality\":" + quality + others + "}", "test");
+}
+
+}  // namespace
+
 CookedMaterial cook(const std::string& grating, const std::string& quality, const std::string& others) {
-    return cook_material(parse_json("{\"grating\":" + grating + ",\"quality\":" + quality + others + "}", "test"),
-                         "test");
+    return cook_material(material_json(grating, quality, others), "test");
 }
 
 CookedMaterial cook_complete(const std::string& grating, const std::string& quality, const std::string& others) {
-    nlohmann::json json = parse_json("{\"grating\":" + grating + ",\"quality\":" + quality + others + "}", "test");
+    nlohmann::json json = material_json(grating, quality, others);
     json["grating"]["profile"] = {{"type", "table"}, {"file", "t.csv"}};
     json["grating"]["orders"] = {-1, 1};
     return cook_material(json, "test", [](const std::string&) {
@@ -20,8 +27,7 @@ CookedMaterial cook_complete(const std::string& grating, const std::string& qual
 
 CookedMaterial cook_planar(const std::string& grating, const std::string& settings) {
     const std::string quality = R"({"representation": "planar", )" + settings + "}";
-    const Material material =
-        parse_material(parse_json("{\"grating\":" + grating + ",\"quality\":" + quality + "}", "test"), "test");
+    const Material material = parse_material(material_json(grating, quality), "test");
     auto planar = std::get<PlanarSettings>(*material.quality.pinned);
     if (planar.lobe_size) planar.stand_in.grid = view_grid(ViewMapping::Spherical, 4);
     CookedMaterial cooked = bake_kernel(material);

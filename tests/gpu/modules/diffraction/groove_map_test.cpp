@@ -135,6 +135,7 @@ TEST_F(Grooves, PatchesOfAFlatCardEqualTheCpu) {
     const AtPoint lights = at_patches([&](const Turned& turned) { return key_lights(cooked, turned); });
     expect_drawn(sum(ambient, lights));
     EXPECT_GT(compared_, 500);
+    EXPECT_GT(brightest_, 0.02);
     // Neither part is small.
     EXPECT_GT(largest_difference(draw(), ambient), 0.05);
 }
@@ -147,6 +148,7 @@ TEST_F(Grooves, LightsOfTheirOwnFollowThePatches) {
     // The kernel's rounding is multiplied with the pitch's factor, up to 1.73; .0022 found.
     expect_drawn(at_patches([&](const Turned& turned) { return key_lights(cooked, turned); }), nullptr,
                  1.73 * kPictureTolerance);
+    EXPECT_GT(brightest_, 0.02);
 }
 
 TEST_F(Grooves, StreaksFollowThePatches) {
@@ -162,6 +164,7 @@ TEST_F(Grooves, StreaksFollowThePatches) {
         streak.pitch_nm *= turned.pitch;
         return evaluate(streak, lobes, glm::transpose(turned.point.to_tangent), turned.point.view);
     }));
+    EXPECT_GT(brightest_, 0.02);
 }
 
 /// On a mesh that is not flat the vertices take the map's rotation, but a pixel turns a direction that is interpolated,
@@ -252,6 +255,7 @@ TEST_F(Grooves, APixelShowsTheMeanOfTheGroovesThatItCovers) {
         show_with(cooked, map, 0.4);
         const auto wanted = mean_over(texels, [&](const Turned& turned) { return key_lights(cooked, turned); });
         expect_drawn(wanted, nullptr, 0.04);  // u is no normal distribution; .033 found
+        EXPECT_GT(brightest_, 0.02);
         world_.add(entity_, DiffractionSurface{material_, 0.4F, map_of(texels, kRoughSide, {.sparkle = true}, true)});
         EXPECT_GT(largest_difference(draw(), wanted), 0.3);
         world_.destroy(entity_);

@@ -146,6 +146,7 @@ TEST_F(LatticePicture, DirectionalLightsEqualTheCpu) {
         return xyz;
     };
     expect_drawn(expected, nullptr, kPatternTolerance);
+    EXPECT_GT(brightest_, 0.05);
 }
 
 }  // namespace

@@ -73,6 +73,7 @@ TEST_F(StreakSurface, ANarrowLobeEqualsTheCpu) {
         show(cooked, 0.3);
         expect_narrow(cooked);
         EXPECT_GT(compared_, 500);
+        EXPECT_GT(brightest_, 0.05);
     }
 }
 
@@ -98,6 +99,7 @@ TEST_F(StreakSurface, OrdersOnEitherSideAndOrderZeroEqualTheCpu) {
                                        R"({"representation": "streak", "map_resolution": 96})");
     show(cooked, 1.1);
     expect_narrow(cooked);
+    EXPECT_GT(brightest_, 0.05);
 }
 
 TEST_F(StreakSurface, ANarrowLobeSeesKeyLightsInTheProbeAlone) {

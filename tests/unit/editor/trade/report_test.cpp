@@ -53,6 +53,14 @@ TEST(Report, SaysWhatTheTheoryIsOffWhereItIsKnown) {
     EXPECT_TRUE(report_data(results(), {}, {}, {}, {})["panels"][0]["theory_error"].is_null());
 }
 
+TEST(Report, FiguresFollowTheMeasurements) {
+    SweepResults changed = results();
+    changed.errors[1].error.relative_rms = 0.9;
+    const auto data = report_data(changed, {}, {}, {}, {});
+    EXPECT_EQ(data["panels"][0]["rows"][1]["relative_rms"], 0.9);
+    EXPECT_TRUE(data["panels"][0]["rows"][2].contains("front_speed"));
+}
+
 TEST(Report, PicturesTheBestInRealTimeAndTheFirst) {
     EXPECT_EQ(pictured_settings(results(), 0, 0), (std::vector<std::size_t>{1, 0}));
     SweepResults slow = results();

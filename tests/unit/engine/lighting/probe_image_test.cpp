@@ -1,5 +1,8 @@
 #include <gmock/gmock.h>
 
+#include <cmath>
+#include <limits>
+
 #include "engine/core/error.h"
 #include "engine/lighting/light_probe.h"
 #include "engine/lighting/light_samples.h"
@@ -189,6 +192,22 @@ TEST(ProbeImage, AngularSolidAngleIsTheIntegralOverTheTexel) {
                     << size << ": " << column << ", " << row;
             }
     }
+}
+
+TEST(ProbeImage, TexelsThatAreNoLightAreCountedAndBlack) {
+    image::Image image{2, 1, {{1, std::nanf(""), 2}, {-3, 4, std::numeric_limits<float>::infinity()}}};
+    image.texels.emplace_back(0, -1, 5);
+    image.texels.emplace_back(1, 2, 3);
+    image.height = 2;
+    const ProbeImage probe(image, Mapping::Equirectangular);
+    EXPECT_EQ(probe.report().nan, 1u);
+    EXPECT_EQ(probe.report().infinite, 1u);
+    EXPECT_EQ(probe.report().negative, 1u);
+    EXPECT_EQ(probe.report().total(), 3u);
+    EXPECT_EQ(probe.image().at(0, 0), glm::vec3(1, 0, 2));
+    EXPECT_EQ(probe.image().at(1, 0), glm::vec3(0, 4, 0));
+    EXPECT_EQ(probe.image().at(0, 1), glm::vec3(0, 0, 5));
+    EXPECT_EQ(probe.image().at(1, 1), glm::vec3(1, 2, 3));
 }
 
 TEST(ProbeImage, BadShapesAndMappingsAreRefused) {
