@@ -118,8 +118,7 @@ std::vector<Field> order_and_lobe_fields() {
                   {{"by the grooves", nullptr}, {"scalar", "scalar"}, {"rigorous", "rigorous"}},
                   "scalar: closed forms that depend on wavelength alone. rigorous: Maxwell's equations, of lamellar, "
                   "sinusoidal and blazed grooves of a metal or a sheet; solving takes seconds, drawing costs the same. "
-                  "by "
-                  "the grooves: rigorous where it knows a metal's.",
+                  "by the grooves: rigorous where it knows a metal's.",
                   kMaxwell),
               choice("/grating/films", "Film on the grooves", nullptr,
                      {{"none", nullptr}, {"a film", {{{"ior", 1.6}, {"thickness_nm", 120}}}}},

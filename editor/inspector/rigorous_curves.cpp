@@ -49,20 +49,18 @@ PolarisedPoint point_of(const OrderEfficiencies& solved, int order, const diffra
 
 void add_incidences(const OrderEfficiencies& solved, double s_g, double period, const diffraction::Substrate& substrate,
                     std::vector<RigorousOrder>& curves) {
-    const int sign = diffraction::sign_of(substrate);
     for (const auto [k, from] : diffraction::comb_of(solved, s_g, period))
         for (RigorousOrder& curve : curves)
-            if (std::abs(sign * curve.order * period - from) < 1.0)
+            if (std::abs(curve.order * period - from) < 1.0)
                 curve.over_incidence.push_back(
-                    point_of(solved, sign * curve.order, substrate, sign * std::asin(from) / kRadiansPerDegree, k));
+                    point_of(solved, curve.order, substrate, std::asin(from) / kRadiansPerDegree, k));
 }
 
 std::optional<std::vector<RigorousOrder>> curves_at(const RigorousInputs& inputs, const Steps& steps,
                                                     const std::stop_token& stop) {
-    const int sign = diffraction::sign_of(inputs.substrate);
-    std::vector<std::pair<double, double>> lights;  // wavelength and s_g of the solver
+    std::vector<std::pair<double, double>> lights;  // wavelength and s_g
     for (int nm = colour::kVisibleMin; nm <= colour::kVisibleMax; nm += steps.wavelength_nm)
-        lights.emplace_back(nm, sign * inputs.s_g);
+        lights.emplace_back(nm, inputs.s_g);
     const std::size_t wavelengths = lights.size();
     for (const double s_g : comb_starts(inputs, steps.angle_deg)) lights.emplace_back(inputs.wavelength_nm, s_g);
     std::vector<OrderEfficiencies> solved(lights.size());
@@ -80,9 +78,8 @@ std::optional<std::vector<RigorousOrder>> curves_at(const RigorousInputs& inputs
             continue;
         }
         for (RigorousOrder& curve : curves)
-            if (std::abs(sign * curve.order * period - s_g) < 1.0)
-                curve.over_wavelength.push_back(
-                    point_of(solved[i], sign * curve.order, inputs.substrate, wavelength_nm));
+            if (std::abs(curve.order * period - s_g) < 1.0)
+                curve.over_wavelength.push_back(point_of(solved[i], curve.order, inputs.substrate, wavelength_nm));
     }
     for (RigorousOrder& curve : curves) std::ranges::sort(curve.over_incidence, {}, &PolarisedPoint::at);
     return curves;
@@ -100,8 +97,8 @@ std::optional<std::vector<RigorousOrder>> rigorous_curves(
     if (!coarse) return std::nullopt;
     publish(*std::move(coarse));
     const auto index = diffraction::index_of(inputs.substrate, inputs.wavelength_nm);
-    const diffraction::Converged converged = solve_converged(inputs.relief, index, inputs.wavelength_nm,
-                                                             diffraction::sign_of(inputs.substrate) * inputs.s_g, 2e-3);
+    const diffraction::Converged converged =
+        solve_converged(inputs.relief, index, inputs.wavelength_nm, inputs.s_g, 2e-3);
     const int margin = converged.truncation - diffraction::first_truncation(inputs.relief, index, inputs.wavelength_nm);
     return curves_at(inputs, {.wavelength_nm = 10, .angle_deg = 1.5, .margin = margin}, stop);
 }

@@ -47,19 +47,15 @@ void print_efficiencies(const RigorousOptions& options) {
                                  incidence.wavelength_nm / 2.0),
                      "increase the pitch or reduce the wavelength");
     const diffraction::Substrate substrate = diffraction::substrate_of(grating);
-    const diffraction::Converged solved =
-        diffraction::solve_converged(relief, diffraction::index_of(substrate, options.wavelength_nm),
-                                     incidence.wavelength_nm, diffraction::sign_of(substrate) * incidence.s_g);
+    const diffraction::Converged solved = diffraction::solve_converged(
+        relief, diffraction::index_of(substrate, options.wavelength_nm), incidence.wavelength_nm, incidence.s_g);
     std::string text = "order,TE,TM,mean\n";
-    const int sign = diffraction::sign_of(substrate);
-    const std::size_t count = solved.efficiencies.v_g.size();
-    for (std::size_t j = 0; j < count; ++j) {
-        const std::size_t column = sign > 0 ? j : count - 1 - j;
-        if (std::abs(solved.efficiencies.v_g[column]) >= 1.0) continue;  // trapped under the cover
-        const int order = solved.efficiencies.first + static_cast<int>(column);
+    for (std::size_t j = 0; j < solved.efficiencies.v_g.size(); ++j) {
+        if (std::abs(solved.efficiencies.v_g[j]) >= 1.0) continue;  // trapped under the cover
+        const int order = solved.efficiencies.first + static_cast<int>(j);
         const auto eta = [&](Light light) { return leaving(solved.efficiencies, order, substrate, light); };
-        fmt::format_to(std::back_inserter(text), "{},{:.9g},{:.9g},{:.9g}\n", sign * order, eta(Light::TE),
-                       eta(Light::TM), eta(Light::Unpolarised));
+        fmt::format_to(std::back_inserter(text), "{},{:.9g},{:.9g},{:.9g}\n", order, eta(Light::TE), eta(Light::TM),
+                       eta(Light::Unpolarised));
     }
     fmt::print(stderr, "orders -{0} to {0} solved for; the last {1} changed no efficiency by more than {2:.1g}\n",
                solved.truncation, solved.added, solved.error);
@@ -74,9 +70,9 @@ void add_rigorous_command(CLI::App& program) {
         "Writes order,TE,TM,mean for every order that propagates: the fraction of light from (s_g, s_h) that it "
         "takes;\n"
         "TE: the electric field lies along the grooves. For lamellar, sinusoidal and blazed grooves of a metal, or of\n"
-        "a sheet with \"transmission\", whose light leaves on the other side. Under\n"
-        "a cover the light is the part that has entered it. With --s-h the classical problem of the same cone is\n"
-        "solved, which is an approximation.\n"
+        "a sheet with \"transmission\", whose light leaves on the other side. Under a cover the light is the part "
+        "that\n"
+        "has entered it. With --s-h the classical problem of the same cone is solved, which is an approximation.\n"
         "Example:\n  rowland-trade rigorous ruled_1200.json --wavelength-nm 550 --s-g 0.3");
     const auto options = std::make_shared<RigorousOptions>();
     command->add_option("material", options->material, "Material, JSON")->required()->type_name("FILE");

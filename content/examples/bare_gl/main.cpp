@@ -53,7 +53,7 @@ void bind_kernel(GLuint program, const diffraction::CookedMaterial& material) {
     glTextureParameteri(texture, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
     glBindTextureUnit(10, texture);
 
-    const auto uniforms = diffraction::kernel_uniforms(material.kernel, kernel, pitch_nm);
+    const auto uniforms = diffraction::kernel_uniforms(material.kernel, kernel);
     glProgramUniform4fv(program, glGetUniformLocation(program, "kernel_scale_bias"), 1,
                         glm::value_ptr(uniforms.scale_bias));
     glProgramUniform2fv(program, glGetUniformLocation(program, "kernel_rows"), 1, glm::value_ptr(uniforms.rows));

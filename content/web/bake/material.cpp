@@ -159,7 +159,7 @@ ROWLAND_EXPORT(kernel_texture) Numbers* kernel_texture(const Material* material,
     const KernelTable kernel = in_space(material->kernel, material->has_pits() ? glm::dmat3(1.0) : xyz_to_working());
     const BlurredKernel blurred =
         blur_for_lights(kernel, pitch_nm, most_columns, kernel.views > 1 ? kLevelsOfViews : kLevels);
-    const KernelUniforms uniforms = kernel_uniforms(kernel, blurred, pitch_nm);
+    const KernelUniforms uniforms = kernel_uniforms(kernel, blurred);
     auto* numbers = new Numbers;
     append(static_cast<float>(blurred.columns), *numbers);
     append(static_cast<float>(blurred.levels), *numbers);

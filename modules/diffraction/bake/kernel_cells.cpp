@@ -247,7 +247,8 @@ BlurredKernel blur_for_lights(const KernelTable& kernel, double pitch_nm, int mo
     return blur(kernel, pitch_nm, widest_nm, static_cast<int>(columns) / 2, std::max(1, levels_per_octave - 1));
 }
 
-KernelUniforms kernel_uniforms(const KernelTable& kernel, const BlurredKernel& blurred, double pitch_nm) {
+KernelUniforms kernel_uniforms(const KernelTable& kernel, const BlurredKernel& blurred) {
+    const double pitch_nm = blurred.pitch_nm;
     const double step = 1.0 / blurred.columns;
     const double per_nm = (1.0 - step) / (blurred.end_nm - blurred.begin_nm);
     const double narrowest = blurred.narrowest_nm / pitch_nm;

@@ -93,7 +93,8 @@ double view_coordinate(double u, double v_g);
 /// look-up. A 2D texture, GL_LINEAR, GL_CLAMP_TO_EDGE, three texels (the matrix's columns) per entry.
 ///   s = ((x − begin)/(end − begin) (columns−1) + ½)/columns
 ///   t = (log₂(σ/narrowest)·levels_per_octave + ½)/levels
-/// Where k depends on the view, such a table for each of kBlurredViews, at view_coordinate() = 2j/(kBlurredViews−1) − 1.
+/// Where k depends on the view, such a table for each of kBlurredViews, at view_coordinate() = 2j/(kBlurredViews−1)
+/// − 1.
 struct BlurredKernel {
     double begin_nm = 0.0;
     double end_nm = 0.0;
@@ -102,7 +103,7 @@ struct BlurredKernel {
     int levels = 0;
     int levels_per_octave = kLevelsPerOctave;
     int views = 1;
-    double pitch_nm = 0.0;
+    double pitch_nm = 0.0;          ///< of the grating
     std::vector<glm::mat3> values;  ///< per nm; view by view, level by level
 
     /// The value that the texture unit interpolates: 0 at the table's ends, and no narrower than a column.
@@ -126,7 +127,7 @@ struct KernelUniforms {
     glm::vec2 rows{0.0F};        ///< scale and offset from log2(deviation of u) to t
     glm::vec2 reach{0.0F};       ///< k is 0 where |u| differs from x by more than y
 };
-KernelUniforms kernel_uniforms(const KernelTable& kernel, const BlurredKernel& blurred, double pitch_nm);
+KernelUniforms kernel_uniforms(const KernelTable& kernel, const BlurredKernel& blurred);
 /// `kernel_views` of the shader under KERNEL_VIEWS, for a texture of `layers` times the kernel's views.
 glm::vec3 kernel_views(const BlurredKernel& blurred, std::size_t layers);
 

@@ -52,14 +52,13 @@ using Samples = std::vector<std::vector<EfficiencyGrid::Sample>>;
 /// light from the opposite directions.
 void add(const OrderEfficiencies& solved, double s_g, double period, const std::vector<int>& orders,
          const Substrate& substrate, bool symmetric, Samples& samples) {
-    const bool mirrored = sign_of(substrate) < 0;
     for (const auto [k, from] : comb_of(solved, s_g, period))
         for (std::size_t o = 0; o < orders.size(); ++o) {
             const double to = orders[o] * period - from;
             if (std::abs(to) >= 1.0) continue;
             const double efficiency = leaving(solved, orders[o], substrate, Light::Unpolarised, k);
-            if (symmetric || !mirrored) samples[o].push_back({from, efficiency});
-            if (symmetric || mirrored) samples[orders.size() - 1 - o].push_back({-from, efficiency});
+            samples[o].push_back({from, efficiency});
+            if (symmetric) samples[orders.size() - 1 - o].push_back({-from, efficiency});
         }
 }
 

@@ -91,8 +91,11 @@ Substrate substrate_of(const Grating& grating) {
 Relief relief_of(const Grating& grating, const std::string& name) {
     if (const auto refused = rigorous_refusal(grating))
         refuse_input(name, refused->key, refused->found, refused->expected, refused->remedy);
-    Relief relief{
-        .pitch_nm = grating.pitch_nm, .shape = {}, .films = grating.films, .ambient_ior = groove_medium(grating.cover)};
+    Relief relief{.pitch_nm = grating.pitch_nm,
+                  .shape = {},
+                  .films = grating.films,
+                  .ambient_ior = groove_medium(grating.cover),
+                  .mirrored = grating.transmission.has_value()};
     std::visit(
         [&](const auto& shape) {
             if constexpr (requires { relief.shape = shape; }) relief.shape = shape;

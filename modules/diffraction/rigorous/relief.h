@@ -22,6 +22,7 @@ struct Relief {
     std::variant<LamellarProfile, SinusoidalProfile, BlazedProfile> shape = {};
     std::vector<DielectricFilm> films = {};  ///< from the substrate up
     double ambient_ior = 1.0;                ///< of the medium that the light comes from, ≥ 1
+    bool mirrored = false;                   ///< along g: a blazed surface descends toward +g, or ascends if mirrored
 
     friend bool operator==(const Relief&, const Relief&) = default;
 };
@@ -38,10 +39,6 @@ inline constexpr double kCoarsestSolved_nm = 20000.0;
 /// other face.
 using Substrate = std::variant<colour::Metal, double>;
 std::complex<double> index_of(const Substrate& substrate, double wavelength_nm);
-/// The sign of v_g, s_g and orders in the solver, whose blazed relief descends toward +g: a sheet's ascends.
-inline int sign_of(const Substrate& substrate) {
-    return std::holds_alternative<double>(substrate) ? -1 : 1;
-}
 
 /// Why rigorous theory does not know a grating; nullopt for at least kManyGrooves lamellar, sinusoidal or blazed
 /// grooves of a metal, in air or under a cover, or of a sheet that transmits, at a pitch above λ/2, below which no
@@ -49,8 +46,8 @@ inline int sign_of(const Substrate& substrate) {
 /// at.
 std::optional<Refusal> rigorous_refusal(const Grating& grating);
 
-/// The relief of a grating with its films. Throws Error (input) that calls it `name` where rigorous_refusal() or
-/// check_relief() does.
+/// The relief of a grating with its films; a sheet's is mirrored, as it is thickest toward +g (PHYSICS §12). Throws
+/// Error (input) that calls it `name` where rigorous_refusal() or check_relief() does.
 Relief relief_of(const Grating& grating, const std::string& name);
 /// Of a grating that relief_of() takes.
 Substrate substrate_of(const Grating& grating);

@@ -58,6 +58,19 @@ void check_light(const Relief& relief, std::complex<double> substrate_index, dou
                      "n + ik with n > 0 and k >= 0: a medium without gain", "give k as a number that is not negative");
 }
 
+/// What the relief that is mirrored along g gives of light from the opposite directions.
+void mirror(OrderEfficiencies& solved) {
+    const auto mirror_directions = [](std::vector<double>& v_g, int& first) {
+        std::ranges::reverse(v_g);
+        for (double& direction : v_g) direction = -direction;
+        first = 1 - first - static_cast<int>(v_g.size());
+    };
+    mirror_directions(solved.v_g, solved.first);
+    mirror_directions(solved.transmitted_v_g, solved.transmitted_first);
+    for (auto* table : {&solved.reflected_te, &solved.reflected_tm, &solved.transmitted_te, &solved.transmitted_tm})
+        std::ranges::reverse(*table);  // rows and columns
+}
+
 }  // namespace
 
 double OrderEfficiencies::reflected(int order, Light light, int k) const {
@@ -111,6 +124,7 @@ OrderEfficiencies solve(const Relief& relief, std::complex<double> substrate_ind
                         int truncation) {
     check_light(relief, substrate_index, wavelength_nm, s_g);
     ROWLAND_CHECK(truncation >= 0 && truncation <= kMaximumTruncation, "a truncation within its limits");
+    if (relief.mirrored) s_g = -s_g;
     const double step = wavelength_nm / relief.pitch_nm;
     const int centre = static_cast<int>(std::lround(s_g / step));
     Basis basis{.wavelength_nm = wavelength_nm, .period = 2.0 * std::numbers::pi / step, .alpha = {}};
@@ -136,6 +150,7 @@ OrderEfficiencies solve(const Relief& relief, std::complex<double> substrate_ind
         (te ? result.transmitted_te : result.transmitted_tm) =
             powers(scattered.down, stack.down, down.gamma, up.gamma, ratio);
     }
+    if (relief.mirrored) mirror(result);
     return result;
 }
 

@@ -31,16 +31,15 @@ glm::dmat3 xyz_to_kernel(const CookedMaterial& cooked, const glm::dmat3& xyz_to_
 GpuKernel::GpuKernel(std::shared_ptr<const CookedMaterial> cooked, const glm::dmat3& xyz_to_working)
     : cooked_(std::move(cooked)),
       xyz_to_kernel_(xyz_to_kernel(*cooked_, xyz_to_working)),
-      pitch_nm_(cooked_->material.grating.pitch_nm),
-      lobe_(cooked_->material.grating.lobe),
       zero_order_(xyz_to_kernel_ * cooked_->zero_order_xyz),
       working_to_rec709_(glm::inverse(xyz_to_working * colour::rec709_to_xyz())) {}
 
 const GpuKernel::Blurred& GpuKernel::blurred() const {
     if (!blurred_) {
         const KernelTable kernel = in_space(cooked_->kernel, xyz_to_kernel_);
-        blurred_.emplace(Blurred{.kernel = blur_for_lights(kernel, pitch_nm_), .uniforms = {}});
-        blurred_->uniforms = kernel_uniforms(kernel, blurred_->kernel, pitch_nm_);
+        blurred_.emplace(
+            Blurred{.kernel = blur_for_lights(kernel, cooked_->material.grating.pitch_nm), .uniforms = {}});
+        blurred_->uniforms = kernel_uniforms(kernel, blurred_->kernel);
     }
     return *blurred_;
 }
@@ -73,18 +72,20 @@ GpuKernel::Smoothed GpuKernel::smooth(std::span<const glm::vec3> light_colours) 
 
 void GpuKernel::add_defines(gpu::ProgramDesc& desc) const {
     if (cooked_->kernel.views > 1) desc.defines.push_back({"KERNEL_VIEWS", "1"});
+    const GrooveLobe& lobe = cooked_->material.grating.lobe;
     if (has_zero_order()) desc.defines.push_back({"ZERO_ORDER", "1"});
-    if (std::holds_alternative<GaussianLobe>(lobe_)) desc.defines.push_back({"LOBE_GAUSSIAN", "1"});
-    if (std::holds_alternative<PitsLobe>(lobe_)) desc.defines.push_back({"LOBE_PITS", "1"});
+    if (std::holds_alternative<GaussianLobe>(lobe)) desc.defines.push_back({"LOBE_GAUSSIAN", "1"});
+    if (std::holds_alternative<PitsLobe>(lobe)) desc.defines.push_back({"LOBE_PITS", "1"});
 }
 
 void GpuKernel::set_lobe(const gpu::Program& program) const {
+    const GrooveLobe& lobe = cooked_->material.grating.lobe;
     const auto set_gaussian = [&](double sigma, double power) {
         program.set("lobe_gaussian",
                     glm::vec2(glm::dvec2(sigma, power * lobe_density(GaussianLobe{sigma}, 0.0, 550.0))));
     };
-    if (const auto* gaussian = std::get_if<GaussianLobe>(&lobe_)) set_gaussian(gaussian->sigma, 1.0);
-    if (const auto* pits = std::get_if<PitsLobe>(&lobe_)) {
+    if (const auto* gaussian = std::get_if<GaussianLobe>(&lobe)) set_gaussian(gaussian->sigma, 1.0);
+    if (const auto* pits = std::get_if<PitsLobe>(&lobe)) {
         set_gaussian(kCoherentSigma, pits->coherent);
         program.set("pit_length_over_wavelength", glm::vec3(pits->length_nm / kPitsWavelengths_nm));
         program.set("incoherent", static_cast<float>(1.0 - pits->coherent));
@@ -94,8 +95,8 @@ void GpuKernel::set_lobe(const gpu::Program& program) const {
 void GpuKernel::bind(const gpu::Program& program, std::span<const lighting::KeyLight> key_lights,
                      std::span<const glm::vec3> light_colours) const {
     if (program.has_uniform("lobe_scale_bias")) {
-        lobes_.set(blurred().kernel, pitch_nm_, key_lights);
-        lobes_.bind(program, blurred().uniforms, pitch_nm_);
+        lobes_.set(blurred().kernel, key_lights);
+        lobes_.bind(program, blurred().uniforms, blurred().kernel.pitch_nm);
     }
     set_lobe(program);
     if (!program.has_uniform("kernel_scale_bias")) return;
@@ -110,15 +111,14 @@ void GpuKernel::bind(const gpu::Program& program, std::span<const lighting::KeyL
     program.set("working_to_rec709", working_to_rec709_);
 }
 
-void GpuLobes::set(const BlurredKernel& kernel, double pitch_nm, std::span<const lighting::KeyLight> lights) {
+void GpuLobes::set(const BlurredKernel& kernel, std::span<const lighting::KeyLight> lights) {
     if (lights.empty() || same_lobes(lights, lights_)) return;
     lights_.assign(lights.begin(), lights.end());
     begin_nm_ = kernel.begin_nm;
     end_nm_ = kernel.end_nm;
     const int columns = static_cast<int>(std::bit_floor(static_cast<unsigned>(kernel.columns)));
     std::vector<LobeTable> tables(lights_.size());
-    parallel_for(lights_.size(),
-                 [&](std::size_t i) { tables[i] = make_lobe_table(kernel, pitch_nm, lights_[i], columns); });
+    parallel_for(lights_.size(), [&](std::size_t i) { tables[i] = make_lobe_table(kernel, lights_[i], columns); });
     // Stored as fp16: each layer is divided by its light's flux, and all by the largest component.
     std::vector<float> inverse_flux;
     float largest = 1e-30F;

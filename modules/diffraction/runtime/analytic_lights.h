@@ -23,7 +23,7 @@ namespace rowland::diffraction {
 class GpuLobes {
  public:
     /// Rebuilds the layers if the lights' fluxes or concentrations changed.
-    void set(const BlurredKernel& kernel, double pitch_nm, std::span<const lighting::KeyLight> lights);
+    void set(const BlurredKernel& kernel, std::span<const lighting::KeyLight> lights);
     void bind(const gpu::Program& program, const KernelUniforms& kernel, double pitch_nm) const;
 
  private:
@@ -62,8 +62,6 @@ class GpuKernel {
 
     std::shared_ptr<const CookedMaterial> cooked_;
     glm::dmat3 xyz_to_kernel_;  ///< the colour space of the kernel's values: kernel.glsl
-    double pitch_nm_;
-    GrooveLobe lobe_;
     glm::mat3 zero_order_;
     glm::mat3 working_to_rec709_;
     mutable std::optional<Blurred> blurred_;

@@ -185,8 +185,8 @@ void sharpen(std::span<glm::vec3> row) {
     }
 }
 
-glm::dmat3 radiance_of(const BlurredKernel& kernel, double pitch_nm, std::span<const LobeWindow> windows, double v_g,
-                       double footprint) {
+glm::dmat3 radiance_of(const BlurredKernel& kernel, std::span<const LobeWindow> windows, double v_g, double footprint) {
+    const double pitch_nm = kernel.pitch_nm;
     glm::dmat3 sum(0.0);
     for (const LobeWindow& window : windows) {
         const double deviation = std::hypot(window.deviation_g, footprint / std::sqrt(3.0));
@@ -233,7 +233,7 @@ glm::dvec4 lobe_height_fit(double concentration) {
     return glm::inverse(powers) * logarithms / glm::dvec4(1.0, unit, unit * unit, unit * unit * unit);
 }
 
-LobeTable make_lobe_table(const BlurredKernel& kernel, double pitch_nm, const lighting::KeyLight& light, int columns) {
+LobeTable make_lobe_table(const BlurredKernel& kernel, const lighting::KeyLight& light, int columns) {
     LobeTable table{
         .begin_nm = kernel.begin_nm, .end_nm = kernel.end_nm, .columns = columns, .rows = kRows, .values = {}};
     table.values.reserve(static_cast<std::size_t>(kRows) * static_cast<std::size_t>(columns));
@@ -246,9 +246,8 @@ LobeTable make_lobe_table(const BlurredKernel& kernel, double pitch_nm, const li
         const double height = lobe_height(light.concentration, raised.direction.z);
         for (int column = 0; column < columns; ++column) {
             const double x = table.begin_nm + (table.end_nm - table.begin_nm) * cell_centre(column, columns);
-            const double v_g = x / pitch_nm - moments.mean * setting.s_g;
-            table.values.emplace_back(radiance_of(kernel, pitch_nm, windows, v_g, setting.footprint) * light.flux /
-                                      height);
+            const double v_g = x / kernel.pitch_nm - moments.mean * setting.s_g;
+            table.values.emplace_back(radiance_of(kernel, windows, v_g, setting.footprint) * light.flux / height);
         }
         sharpen(std::span(table.values).last(static_cast<std::size_t>(columns)));
     }

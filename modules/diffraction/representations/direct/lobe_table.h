@@ -90,7 +90,7 @@ glm::dvec4 lobe_height_fit(double concentration);
 /// The table of a key light, from the radiance of the raised lobe (LobeCosine) over lobe_height(). It deviates from
 /// direct_radiance() where the horizon cuts the lobe. Nodes are those that interpolate best over x
 /// (kBestLinear).
-LobeTable make_lobe_table(const BlurredKernel& kernel, double pitch_nm, const lighting::KeyLight& light, int columns);
+LobeTable make_lobe_table(const BlurredKernel& kernel, const lighting::KeyLight& light, int columns);
 
 /// CPU reference of key_light_tables.glsl: XYZ of a key light from its table. `world_to_tangent`: rows g, h, n.
 glm::dvec3 lobe_radiance(const LobeTable& table, const DirectMaterial& material, const lighting::KeyLight& light,

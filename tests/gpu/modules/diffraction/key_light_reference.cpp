@@ -23,8 +23,8 @@ const LobeReference& lobe_reference(const CookedMaterial& cooked, const lighting
     if (found != tables.end()) return found->second;
     const BlurredKernel& kernel = smoothed(cooked);
     return tables
-        .emplace(name, LobeReference{.table = make_lobe_table(kernel, pitch, key, 4096),
-                                     .error = filter_error(make_lobe_table(kernel, pitch, key, kFewestColumns))})
+        .emplace(name, LobeReference{.table = make_lobe_table(kernel, key, 4096),
+                                     .error = filter_error(make_lobe_table(kernel, key, kFewestColumns))})
         .first->second;
 }
 

@@ -34,7 +34,7 @@ lighting::KeyLight light_at(double psi, double around, double concentration) {
 /// itself, with a footprint of the smoothed kernel.
 double error_of(double concentration, double around, double footprint) {
     const DirectMaterial material{.pitch_nm = kPitch, .zero_order_xyz = glm::dmat3(0.0), .lobe = FlatLobe{}};
-    const LobeTable table = make_lobe_table(kernel(), kPitch, light_at(0.0, 0.0, concentration), 4096);
+    const LobeTable table = make_lobe_table(kernel(), light_at(0.0, 0.0, concentration), 4096);
     std::mt19937 random(7);
     const double reach = (footprint > 0.0 ? 0.35 : 0.45) * std::numbers::pi;
     std::uniform_real_distribution<double> angle(-reach, reach);
