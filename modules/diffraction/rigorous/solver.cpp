@@ -61,14 +61,14 @@ void check_light(const Relief& relief, std::complex<double> substrate_index, dou
 /// What the relief that is mirrored along g gives of light from the opposite directions.
 void mirror(OrderEfficiencies& solved) {
     const auto mirror_directions = [](std::vector<double>& v_g, int& first) {
-        std::ranges::reverse(v_g);
+        std::reverse(v_g.begin(), v_g.end());
         for (double& direction : v_g) direction = -direction;
         first = 1 - first - static_cast<int>(v_g.size());
     };
     mirror_directions(solved.v_g, solved.first);
     mirror_directions(solved.transmitted_v_g, solved.transmitted_first);
     for (auto* table : {&solved.reflected_te, &solved.reflected_tm, &solved.transmitted_te, &solved.transmitted_tm})
-        std::ranges::reverse(*table);  // rows and columns
+        std::reverse(table->begin(), table->end());  // rows and columns
 }
 
 }  // namespace
