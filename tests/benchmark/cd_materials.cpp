@@ -38,6 +38,13 @@ nlohmann::json lattice_material(const nlohmann::json& quality) {
     return material;
 }
 
+nlohmann::json rigorous_material(const nlohmann::json& quality) {
+    nlohmann::json material = cd_material(quality);
+    material["grating"]["profile"] = {{"type", "lamellar"}, {"duty", 0.5}, {"depth_nm", 120}};
+    material["grating"]["theory"] = "rigorous";
+    return material;
+}
+
 nlohmann::json material_of(const TimedRepresentation& representation) {
     return cd_material(representation.quality, representation.groove_lobe);
 }

@@ -22,6 +22,8 @@ std::vector<TimedRepresentation> timed_representations();
 nlohmann::json cd_material(const nlohmann::json& quality, const nlohmann::json& groove_lobe = "flat");
 /// Crossed foil's material file.
 nlohmann::json lattice_material(const nlohmann::json& quality);
+/// The disc's with a solved relief: its efficiencies depend on the view.
+nlohmann::json rigorous_material(const nlohmann::json& quality);
 nlohmann::json material_of(const TimedRepresentation& representation);
 
 }  // namespace rowland::benchmark

@@ -109,17 +109,18 @@ void add_lamps_in_scene(const TimedRepresentation& direct, std::vector<FrameVari
     }
 }
 
-/// A lattice under the lights of grooves, in one look-up each as well, or three for key lights.
-void add_lattice(const TimedRepresentation& direct, std::vector<FrameVariant>& variants) {
-    const auto lattice = [&](FrameVariant variant, const nlohmann::json& quality) {
-        variant.name.replace(0, direct.name.size(), "lattice");
-        variant.material = lattice_material(quality);
-        return variant;
+/// Another grating under the lights of grooves of one spectrum: of a lattice they take one look-up each as well, or
+/// three for key lights, of efficiencies that depend on the view one in a volume.
+void add_under_lights(const std::string& name, const json& material, const TimedRepresentation& direct,
+                      std::vector<FrameVariant>& variants) {
+    const auto add = [&](FrameVariant variant) {
+        variant.name.replace(0, direct.name.size(), name);
+        variant.material = material;
+        variants.push_back(variant);
     };
-    variants.push_back(lattice(grating(direct, "/key-lights:16", "plain", Lighting::StudioKeyLights), direct.quality));
+    add(grating(direct, "/key-lights:16", "plain", Lighting::StudioKeyLights));
     for (const int lamps : {1, 16})
-        variants.push_back(lattice(
-            with_lamps(grating(direct, "/lights:", "direct/lights:", Lighting::LampsInScene), lamps), direct.quality));
+        add(with_lamps(grating(direct, "/lights:", "direct/lights:", Lighting::LampsInScene), lamps));
 }
 
 bool matches(const std::string& pattern, const std::string& name) {
@@ -146,7 +147,8 @@ std::vector<FrameVariant> all_variants() {
         if (drawn.name == "spikes" || drawn.name == "planar") add_lamps_in_probe(drawn, variants);
         if (drawn.name == "direct") {
             add_lamps_in_scene(drawn, variants);
-            add_lattice(drawn, variants);
+            add_under_lights("lattice", lattice_material(drawn.quality), drawn, variants);
+            add_under_lights("rigorous", rigorous_material(drawn.quality), drawn, variants);
         }
     }
     variants.push_back(

@@ -262,7 +262,7 @@ KernelUniforms kernel_uniforms(const KernelTable& kernel, const BlurredKernel& b
 
 glm::vec3 kernel_views(const BlurredKernel& blurred, std::size_t layers) {
     const double views = blurred.views;
-    return glm::dvec3(1.0, 0.5 * (views - 1.0) / views, 0.5) / static_cast<double>(layers);
+    return glm::dvec3(1.0, (views - 1.0) / views, 0.5 / views) / static_cast<double>(layers);
 }
 
 }  // namespace rowland::diffraction

@@ -3,7 +3,7 @@
 // KERNEL_VIEWS: k depends on the view, and a layer is a slice for each of some values of view_coordinate().
 #ifdef KERNEL_VIEWS
 TEXTURE_UNIT(10) uniform sampler3D kernel_table;
-uniform vec3 kernel_views;  // factors of the layer and of view_coordinate(), and offset, to r
+uniform vec3 kernel_views;  // factors of the layer and of a view between 0 and 1, and offset, to r
 #else
 TEXTURE_UNIT(10) uniform sampler2DArray kernel_table;
 #endif
@@ -50,7 +50,8 @@ float kernel_row(KernelScale scale, float square_width) {
 
 vec3 kernel_texel(KernelScale scale, float u, float v_g, float t, float layer) {
 #ifdef KERNEL_VIEWS
-    float view = clamp((2.0 * v_g - u) / max(2.0 - abs(u), 1e-3), -1.0, 1.0);  // view_coordinate()
+    // (1 + view_coordinate()) / 2, between horizons that lie a little farther apart: no quotient 0 / 0.
+    float view = clamp((v_g - 0.5 * u) / (2.0001 - abs(u)) + 0.5, 0.0, 1.0);
     layer = layer * kernel_views.x + view * kernel_views.y + kernel_views.z;
 #endif
     return textureLod(kernel_table, vec3(u * scale.scale_bias.x + scale.scale_bias.y, t, layer), 0.0).xyz;
