@@ -57,13 +57,6 @@ function frames(seed, fixed) {
 
 const TILTED = unit([0.3, 0.8, 0.5]);
 
-/** The same points seen from the nearest of the kernel's 17 views, between which its texture is linear; none is at grazing incidence. */
-const atViews = (frames) => frames.map(({ view, normal, grating }) => {
-    const toward = Math.max(-7, Math.min(7, Math.round(8 * dot(view, grating)))) / 8;
-    const beside = unit(view.map((x, i) => x - dot(view, grating) * grating[i]));
-    return { view: view.map((_, i) => toward * grating[i] + Math.sqrt(1 - toward * toward) * beside[i]), normal, grating };
-});
-
 /** R and G of a groove texture's texels, one for each point: some turn, by less than half of one, and three pitches, which are nodes of its map. */
 const BLAZED = { grating: { pitch_nm: 1300, profile: { type: "blazed", depth_nm: 250 }, orders: [1, 2] } };
 const PITCHES = [102, 128, 160];
@@ -78,10 +71,9 @@ function turned({ view, normal, grating }, [red], hand) {
 const PITCHED = 2e-2;
 // The worst point of this set is 4.8e-3 off under Venice's key lights; with grooves of the other hand .79.
 const MIRRORED = 1e-2;
-// Key lights near an order's cut-off, where efficiencies bend: 1.1e-2 measured.
-const BETWEEN_VIEWS = 2e-2;
-// The mean over a texel of the smoothed kernel in place of its smoothing: 4.2e-3 measured.
-const BY_DOCUMENT = 1e-2;
+// Lights near an order's cut-off, where efficiencies bend between the views of the kernel: 3.6e-2 measured. With views
+// that are one off, each case of theirs is 5.7e-2 to .12 off.
+const BETWEEN_VIEWS = 4.5e-2;
 const CASES = [
     { name: "planar", grating: CD, representation: "planar", frames: frames(1, TILTED), method: "planar/map_resolution=256" },
     { name: "arc", grating: CD, representation: "arc", frames: frames(2), method: "arc/bands=5/rank=12/storage=fp32" },
@@ -100,12 +92,13 @@ const CASES = [
     { name: "reference", grating: FOIL, representation: "reference", frames: frames(6).slice(0, 20), method: "reference" },
     { name: "direct, lobe and cover", grating: FOIL, representation: "direct", frames: frames(5), method: "direct" },
     { name: "planar, rigorous theory", grating: RIGOROUS, representation: "planar", frames: frames(1, TILTED),
-        method: "planar/map_resolution=256", tolerance: BETWEEN_VIEWS },
-    { name: "arc, rigorous theory", grating: RIGOROUS, representation: "arc", frames: atViews(frames(2)),
-        method: "arc/bands=5/rank=12/storage=fp32" },
-    { name: "direct, rigorous theory", grating: RIGOROUS, representation: "direct", frames: atViews(frames(4)), method: "direct" },
-    { name: "three's light, rigorous theory", grating: RIGOROUS, representation: "direct", frames: atViews(frames(12)), method: "direct",
-        lamp: { direction: unit([0.2, 0.9, -0.4]), flux: [2, 3, 1] }, tolerance: BY_DOCUMENT },
+        method: "planar/map_resolution=256", tolerance: 2e-2 },
+    { name: "arc, rigorous theory", grating: RIGOROUS, representation: "arc", frames: frames(2),
+        method: "arc/bands=5/rank=12/storage=fp32", tolerance: BETWEEN_VIEWS },
+    { name: "direct, rigorous theory", grating: RIGOROUS, representation: "direct", frames: frames(4), method: "direct",
+        tolerance: BETWEEN_VIEWS },
+    { name: "three's light, rigorous theory", grating: RIGOROUS, representation: "direct", frames: frames(12), method: "direct",
+        lamp: { direction: unit([0.2, 0.9, -0.4]), flux: [2, 3, 1] }, tolerance: BETWEEN_VIEWS },
     { name: "reference, rigorous theory", grating: RIGOROUS, representation: "reference", frames: frames(1, TILTED).slice(0, 20),
         method: "reference", shownBy: ["planar, rigorous theory", "planar"] },
 ];
