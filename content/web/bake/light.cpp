@@ -92,9 +92,8 @@ ROWLAND_EXPORT(lobe_map)
 Numbers* lobe_map(const Material* material, const Probe* probe, double x, double y, double z, int azimuths, int views_g,
                   int views_h) {
     using namespace diffraction;
-    const DiffractionPattern pattern = in_space(
-        diffraction_pattern(material->grating(), colour::LightSpectra(material->source.material.quality.illuminant)),
-        xyz_to_working());
+    const DiffractionPattern pattern =
+        diffraction_pattern(material->grating(), colour::LightSpectra(material->source.material.quality.illuminant));
     const LobeMap map =
         fill_lobe_map(probe->light, LobeSpectrum(pattern, {.g = views_g, .h = views_h}), glm::dvec3(x, y, z), azimuths);
     const int depth = slices(map.size, map.half_turn);
@@ -104,7 +103,8 @@ Numbers* lobe_map(const Material* material, const Probe* probe, double x, double
     append(glm::vec4(0.5 - 0.5 / views_g, 0.5 - 0.5 / views_h, static_cast<double>(azimuths) / depth, 0.5 / depth),
            *numbers);
     append(glm::vec4(views_g, views_h, depth, map.half_turn ? 1 : 0), *numbers);
-    for (const glm::vec3& value : map.values) append(value, *numbers);
+    const glm::mat3 to_working(xyz_to_working());
+    for (const glm::vec3& value : map.values) append(to_working * value, *numbers);
     return numbers;
 }
 

@@ -68,6 +68,7 @@ struct LobeFilling {
     };
     Levels all;  ///< azimuths
     Levels one;
+    glm::mat3 xyz_to_working;  ///< of filled maps: no component of XYZ is negative, which sharpening relies on
 
     FilledMap operator()(const MapInput& input, MapDetail detail, const std::stop_token& stop) const {
         const Levels& levels_of = input.grating ? one : all;
@@ -75,6 +76,7 @@ struct LobeFilling {
         LobeMap map = input.grating ? fill_lobe_slice(*input.texels, *level.spectrum, input.normal, *input.grating)
                                     : fill_lobe_map(*input.texels, *level.spectrum, input.normal, level.azimuths, stop);
         if (stop.stop_requested()) return {};
+        for (glm::vec3& value : map.values) value = xyz_to_working * value;
         const LobeMapSize& size = map.size;
         const int depth = slices(size, map.half_turn);
         const std::array levels{std::move(map.values)};
@@ -95,7 +97,7 @@ struct LobeFilling {
 std::shared_ptr<const FillMap> planar_filling(const PlanarTables& tables, const MaterialKernel& material,
                                               const glm::dmat3& xyz_to_working) {
     if (!tables.lobe) return std::make_shared<const FillMap>(FlatFilling{material, tables.size});
-    const auto pattern = std::make_shared<const DiffractionPattern>(in_space(tables.lobe->pattern, xyz_to_working));
+    const auto pattern = std::make_shared<const DiffractionPattern>(tables.lobe->pattern);
     const auto levels = [&](const LobeMapSize& coarse, const LobeMapSize& full) {
         const auto level = [&](const LobeMapSize& size) {
             return LobeFilling::Level{size.azimuths, Lazy<LobeSpectrum>([pattern, views = size.views] {
@@ -105,8 +107,9 @@ std::shared_ptr<const FillMap> planar_filling(const PlanarTables& tables, const 
         return LobeFilling::Levels{level(smaller(coarse, full)), level(full)};
     };
     const LobeMapSize& size = tables.lobe->size;
-    return std::make_shared<const FillMap>(
-        LobeFilling{.all = levels(kCoarseLobeMap, size), .one = levels(kCoarseLobeSlice, one_azimuth(size))});
+    return std::make_shared<const FillMap>(LobeFilling{.all = levels(kCoarseLobeMap, size),
+                                                       .one = levels(kCoarseLobeSlice, one_azimuth(size)),
+                                                       .xyz_to_working = xyz_to_working});
 }
 
 }  // namespace

@@ -158,7 +158,7 @@ class WorkingSpace : public GratingPicture {
     WorkingSpace() { mesh_ = flat_triangle(); }
     std::vector<glm::vec4> drawn_in(const glm::dmat3& xyz_to_working, const CookedMaterial& cooked) {
         xyz_to_working_ = xyz_to_working;
-        light_ = light_of(smooth_probe(), three_keys(), ++version_);
+        light_ = light_of(probe_, three_keys(), ++version_);
         world_ = ecs::World();
         show(cooked, 0.5);
         world_.add(entity_, render::StandardMaterial{.base_colour = glm::vec3(0.0F), .roughness = 1.0F});
@@ -167,6 +167,7 @@ class WorkingSpace : public GratingPicture {
         return draw();
     }
 
+    lighting::ProbeImage probe_ = smooth_probe();
     std::uint64_t version_ = 0;
 };
 
@@ -189,6 +190,28 @@ TEST_F(WorkingSpace, EveryRepresentationDrawsInIt) {
     for (const auto& [grating, quality] : materials) {
         SCOPED_TRACE(std::string(grating) + quality);
         const CookedMaterial cooked = cook(grating, quality);
+        std::vector<glm::vec4> expected = drawn_in(glm::dmat3(1.0), cooked);
+        for (glm::vec4& pixel : expected) pixel = glm::vec4(working * glm::dvec3(pixel), 1.0);
+        EXPECT_GT(brightest(expected), 0.01F);
+        EXPECT_LT(largest_difference(expected, drawn_in(working, cooked)), 3e-3);
+    }
+}
+
+/// Such maps are sharpened as light that nowhere is negative, as some spectral colours are in a working space. Beside a
+/// lamp they would have rings.
+TEST_F(WorkingSpace, MapsOfLobesAndLatticesAroundALampDrawInIt) {
+    image::Image room{.width = 64, .height = 32, .texels = {64 * 32, glm::vec3(0.1F)}};
+    for (const int texel : {64 * 9 + 20, 64 * 11 + 40, 64 * 13 + 5})
+        room.texels[static_cast<std::size_t>(texel)] = glm::vec3(60.0F);
+    probe_ = {std::move(room), lighting::Mapping::Equirectangular};
+    for (const char* grating : {R"({"pitch_nm": 900, "profile": {"type": "slit", "width_nm": 400},
+                                    "groove_lobe": {"sigma": 0.05}})",
+                                R"({"lattice": {"a_nm": [900, 0], "b_nm": [0, 1100]}, "orders": 1,
+                                    "profile": {"type": "aperture", "width_nm": 400, "height_nm": 500}})"}) {
+        SCOPED_TRACE(grating);
+        const CookedMaterial cooked =
+            cook(grating, R"({"representation": "planar", "map_resolution": 32, "views_h": 32, "key_lights": 0})");
+        const glm::dmat3 working = colour::xyz_to_acescg();
         std::vector<glm::vec4> expected = drawn_in(glm::dmat3(1.0), cooked);
         for (glm::vec4& pixel : expected) pixel = glm::vec4(working * glm::dvec3(pixel), 1.0);
         EXPECT_GT(brightest(expected), 0.01F);
