@@ -241,8 +241,7 @@ constexpr std::array kRoot = {!object("asset", kAsset),
 /// Checks objects against their members and copies these.
 class Check {
  public:
-    Check(const Json& root, const std::string& file, MemoryBudget& budget)
-        : root_(root), file_(file), budget_(budget) {}
+    Check(const Json& root, MemoryBudget& budget) : root_(root), budget_(budget) {}
 
     /// `around` is the object that holds `value`, in an array or directly.
     Json object(JsonReader& reader, const Json& value, std::span<const Member> members, const Json& around) {
@@ -347,7 +346,6 @@ class Check {
     }
 
     const Json& root_;
-    const std::string& file_;
     MemoryBudget& budget_;
     std::map<std::string_view, std::size_t> sizes_;  ///< of the root's arrays that indices are of
 };
@@ -468,7 +466,7 @@ nlohmann::json check_gltf(const nlohmann::json& root, const std::string& file,
     JsonReader reader(root, file);
     check_gltf_version(reader.object("asset"));
     check_extensions(reader, handled_extensions, warnings);
-    Json checked = Check(root, file, budget).object(reader, root, kRoot, root);
+    Json checked = Check(root, budget).object(reader, root, kRoot, root);
     check_relations(checked, file, warnings);
     return checked;
 }

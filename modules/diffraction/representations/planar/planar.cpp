@@ -75,10 +75,10 @@ const RepresentationInfo& PlanarSettings::info() {
         .lattices = true,
         .needs_flat_surface = true,
         .settings = {map_resolution_setting(128, 1024), views_h_setting(), bands_setting(), rank_setting()},
-        .budget = [](const Grating& grating, SurfaceShape surface) -> std::vector<std::string> {
+        .budget = [](const Grating& shown, SurfaceShape surface) -> std::vector<std::string> {
             if (surface != SurfaceShape::Flat) return {};
-            if (grating.lattice) return {"map_resolution=64", "map_resolution=128", "map_resolution=256"};
-            if (!sees_v_g_alone(grating)) return {"map_resolution=32", "map_resolution=64", "map_resolution=128"};
+            if (shown.lattice) return {"map_resolution=64", "map_resolution=128", "map_resolution=256"};
+            if (!sees_v_g_alone(shown)) return {"map_resolution=32", "map_resolution=64", "map_resolution=128"};
             return {"map_resolution=32",  "map_resolution=64",  "map_resolution=128",
                     "map_resolution=192", "map_resolution=256", "map_resolution=512"};
         }};
