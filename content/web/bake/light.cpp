@@ -94,8 +94,9 @@ Numbers* lobe_map(const Material* material, const Probe* probe, double x, double
     using namespace diffraction;
     const DiffractionPattern pattern =
         diffraction_pattern(material->grating(), colour::LightSpectra(material->source.material.quality.illuminant));
-    const LobeMap map =
-        fill_lobe_map(probe->light, LobeSpectrum(pattern, {.g = views_g, .h = views_h}), glm::dvec3(x, y, z), azimuths);
+    const LobeMap map = in_space(
+        fill_lobe_map(probe->light, LobeSpectrum(pattern, {.g = views_g, .h = views_h}), glm::dvec3(x, y, z), azimuths),
+        xyz_to_working());
     const int depth = slices(map.size, map.half_turn);
     auto* numbers = new Numbers;
     append(glm::vec3(map.axes.e1), *numbers);
@@ -103,8 +104,7 @@ Numbers* lobe_map(const Material* material, const Probe* probe, double x, double
     append(glm::vec4(0.5 - 0.5 / views_g, 0.5 - 0.5 / views_h, static_cast<double>(azimuths) / depth, 0.5 / depth),
            *numbers);
     append(glm::vec4(views_g, views_h, depth, map.half_turn ? 1 : 0), *numbers);
-    const glm::mat3 to_working(xyz_to_working());
-    for (const glm::vec3& value : map.values) append(to_working * value, *numbers);
+    for (const glm::vec3& value : map.values) append(value, *numbers);
     return numbers;
 }
 

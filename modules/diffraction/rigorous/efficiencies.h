@@ -19,9 +19,8 @@ struct SolvedEfficiencies {
 
 /// The efficiencies of all orders that leave a substrate with a relief, for light of all visible wavelengths from all
 /// directions of the classical plane, each mean of both polarisations. The relief may be on either side of a sheet: the
-/// mean of both. Converged to kGridTolerance. Uses all
-/// cores, the result does not depend on their number; shows progress as `name`. Throws Error (input) as
-/// solve_converged().
+/// mean of both. Converged to kGridTolerance. Uses all cores, the result does not depend on their number; shows
+/// progress as `name`. Throws Error (input) as solve_converged().
 ///
 /// One solve gives light from directions λ/d apart: a wavelength takes as many as fill the grid's step, of a symmetric
 /// relief half of them.

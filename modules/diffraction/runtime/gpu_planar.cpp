@@ -68,7 +68,7 @@ struct LobeFilling {
     };
     Levels all;  ///< azimuths
     Levels one;
-    glm::mat3 xyz_to_working;  ///< of filled maps: no component of XYZ is negative, which sharpening relies on
+    glm::dmat3 xyz_to_working;
 
     FilledMap operator()(const MapInput& input, MapDetail detail, const std::stop_token& stop) const {
         const Levels& levels_of = input.grating ? one : all;
@@ -76,7 +76,7 @@ struct LobeFilling {
         LobeMap map = input.grating ? fill_lobe_slice(*input.texels, *level.spectrum, input.normal, *input.grating)
                                     : fill_lobe_map(*input.texels, *level.spectrum, input.normal, level.azimuths, stop);
         if (stop.stop_requested()) return {};
-        for (glm::vec3& value : map.values) value = xyz_to_working * value;
+        map = in_space(std::move(map), xyz_to_working);
         const LobeMapSize& size = map.size;
         const int depth = slices(size, map.half_turn);
         const std::array levels{std::move(map.values)};
@@ -93,11 +93,12 @@ struct LobeFilling {
     }
 };
 
-/// Fills the maps of a material's objects: planar_map.glsl. `material`: in the working space.
-std::shared_ptr<const FillMap> planar_filling(const PlanarTables& tables, const MaterialKernel& material,
+/// Fills the maps of a material's objects: planar_map.glsl. `tables`: of `cooked`; `material`: in the working space.
+std::shared_ptr<const FillMap> planar_filling(const std::shared_ptr<const CookedMaterial>& cooked,
+                                              const PlanarTables& tables, const MaterialKernel& material,
                                               const glm::dmat3& xyz_to_working) {
     if (!tables.lobe) return std::make_shared<const FillMap>(FlatFilling{material, tables.size});
-    const auto pattern = std::make_shared<const DiffractionPattern>(tables.lobe->pattern);
+    const std::shared_ptr<const DiffractionPattern> pattern(cooked, &tables.lobe->pattern);
     const auto levels = [&](const LobeMapSize& coarse, const LobeMapSize& full) {
         const auto level = [&](const LobeMapSize& size) {
             return LobeFilling::Level{size.azimuths, Lazy<LobeSpectrum>([pattern, views = size.views] {
@@ -120,7 +121,7 @@ GpuPlanar::GpuPlanar(std::shared_ptr<const CookedMaterial> cooked, const PlanarT
       stand_in_([material = this->cooked(), table = tables.stand_in, xyz_to_working] {
           return std::make_unique<const GpuArc>(material, *table, xyz_to_working);
       }),
-      fill_(planar_filling(tables, working_material(), xyz_to_working)),
+      fill_(planar_filling(this->cooked(), tables, working_material(), xyz_to_working)),
       lobe_map_(tables.lobe.has_value()),
       half_turn_(tables.lobe && tables.lobe->pattern.even),
       pitch_axis_(tables.size.pitch.has_value()) {}

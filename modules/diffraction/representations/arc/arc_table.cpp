@@ -291,9 +291,9 @@ const RepresentationInfo& ArcSettings::info() {
         .budget = [](const Grating& grating, SurfaceShape) -> std::vector<std::string> {
             if (!sees_v_g_alone(grating)) return {"bands=5/rank=8", "bands=8/rank=16"};
             std::vector<std::string> settings;
-            for (const int l : {3, 5, 8, 12, 16})
+            for (const int n : {3, 5, 8, 12, 16})
                 for (const int r : {4, 8, 12, 16})
-                    if (r <= 2 * l + 2) settings.push_back(fmt::format("bands={}/rank={}", l, r));
+                    if (r <= 2 * n + 2) settings.push_back(fmt::format("bands={}/rank={}", n, r));
             return settings;
         }};
     return info;

@@ -341,6 +341,12 @@ LobeMap empty_map(const LobeSpectrum& spectrum, const glm::dvec3& normal, int az
 
 }  // namespace
 
+LobeMap in_space(LobeMap map, const glm::dmat3& xyz_to_space) {
+    const glm::mat3 to_space(xyz_to_space);
+    for (glm::vec3& value : map.values) value = to_space * value;
+    return map;
+}
+
 LobeMap fill_lobe_map(const lighting::LightSamples& texels, const LobeSpectrum& spectrum, const glm::dvec3& normal,
                       int azimuths, const std::stop_token& stop) {
     LobeMap map = empty_map(spectrum, normal, azimuths);

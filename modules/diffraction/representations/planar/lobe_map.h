@@ -48,8 +48,11 @@ struct LobeMap {
     LobeMapSize size;
     bool half_turn = false;
     PlaneAxes axes;
-    std::vector<glm::vec3> values;  ///< XYZ, or the pattern's space: [(slice · views.h + j_h) · views.g + j_g]
+    std::vector<glm::vec3> values;  ///< XYZ, or what in_space() made of it: [(slice · views.h + j_h) · views.g + j_g]
 };
+
+/// The map in another colour space than XYZ. Filling relies on XYZ: of no light is a component negative.
+LobeMap in_space(LobeMap map, const glm::dmat3& xyz_to_space);
 
 /// Fills a map: correlates the light seen from straight above, turned to each azimuth, with the pattern, PHYSICS (6.2),
 /// by Fourier transforms. Uses all cores; the result does not depend on their number. After a stop request it returns
