@@ -10,6 +10,7 @@
 
 #include "content/demo/play/recording.h"
 #include "content/demo/session.h"
+#include "engine/gpu/buffer.h"
 #include "engine/gpu/context.h"
 #include "engine/platform/gl_context.h"
 #include "modules/diffraction/runtime/diffraction_surface.h"
@@ -41,7 +42,11 @@ class SteadyFrame : public testing::Test {
         session_.emplace(options_, post::OcioConfig::choose(std::nullopt), kSteadySize, kSteadySize,
                          demo::Pace::Fluent);
     }
+    /// After the frames before it, as a window's are: otherwise it would wait for a GPU that is three frames behind.
     void frame(std::vector<PlayEvent> events = {}) {
+        const gpu::Fence before;
+        glFlush();
+        while (!before.passed()) std::this_thread::yield();
         clock_.live(session_->play(), std::chrono::milliseconds(1000 / kSteadyFramesPerSecond), std::move(events),
                     nullptr);
         session_->carry_out();

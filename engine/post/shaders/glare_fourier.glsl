@@ -7,6 +7,12 @@ layout(binding = 1) uniform sampler1D twiddles;
 
 shared vec2 values[CHANNELS][LENGTH];
 
+// All of the group have written what one of them reads next, and read what one of them overwrites.
+void synchronize() {
+    memoryBarrierShared();
+    barrier();
+}
+
 uint reversed(uint index) {
     return bitfieldReverse(index) >> (32 - findMSB(uint(LENGTH)));
 }
@@ -31,7 +37,7 @@ Butterfly butterfly(uint half_length) {
 
 void forward() {
     for (uint half_length = LENGTH / 2; half_length > 0; half_length >>= 1) {
-        barrier();
+        synchronize();
         Butterfly at = butterfly(half_length);
         for (int channel = 0; channel < CHANNELS; ++channel) {
             vec2 a = values[channel][at.low];
@@ -40,13 +46,13 @@ void forward() {
             values[channel][at.high] = product(a - b, at.twiddle);
         }
     }
-    barrier();
+    synchronize();
 }
 
 // Not divided by LENGTH.
 void inverse() {
     for (uint half_length = 1; half_length < LENGTH; half_length <<= 1) {
-        barrier();
+        synchronize();
         Butterfly at = butterfly(half_length);
         for (int channel = 0; channel < CHANNELS; ++channel) {
             vec2 a = values[channel][at.low];
@@ -55,5 +61,5 @@ void inverse() {
             values[channel][at.high] = a - b;
         }
     }
-    barrier();
+    synchronize();
 }

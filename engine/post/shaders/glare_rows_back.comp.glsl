@@ -21,24 +21,23 @@ void store(int column, int row, vec3 a, vec3 b) {
     if (row + 1 < imageSize(glare).y) imageStore(glare, ivec2(column, row + 1), vec4(scale * b, 1.0));
 }
 
+// Values of both rows at an invocation's left column, and at its right one.
+vec4 transformed_back(int channel) {
+    int row = int(2 * gl_WorkGroupID.x);
+    int left = int(gl_LocalInvocationIndex);
+    synchronize();
+    load(left, row, channel);
+    if (left == 0) load(LENGTH / 2, row, channel);
+    inverse();
+    return vec4(values[0][left], values[0][left + LENGTH / 2]);
+}
+
 void main() {
     int row = int(2 * gl_WorkGroupID.x);
     int left = int(gl_LocalInvocationIndex);
-    int right = left + LENGTH / 2;
-    vec3 a_left;
-    vec3 b_left;
-    vec3 a_right;
-    vec3 b_right;
-    for (int channel = 0; channel < 3; ++channel) {
-        barrier();
-        load(left, row, channel);
-        if (left == 0) load(LENGTH / 2, row, channel);
-        inverse();
-        a_left[channel] = values[0][left].x;
-        b_left[channel] = values[0][left].y;
-        a_right[channel] = values[0][right].x;
-        b_right[channel] = values[0][right].y;
-    }
-    store(left, row, a_left, b_left);
-    store(right, row, a_right, b_right);
+    vec4 red = transformed_back(0);
+    vec4 green = transformed_back(1);
+    vec4 blue = transformed_back(2);
+    store(left, row, vec3(red.x, green.x, blue.x), vec3(red.y, green.y, blue.y));
+    store(left + LENGTH / 2, row, vec3(red.z, green.z, blue.z), vec3(red.w, green.w, blue.w));
 }

@@ -62,7 +62,8 @@ TEST_F(EightBitFilteringTest, FractionsHaveEightBitsRoundedOrCutOff) {
 }
 
 TEST_F(EightBitFilteringTest, LinesKeepTheirNumbers) {
-    const std::string text = "#version 450 core\nlayout(location = 0) out vec4 texture_colour;\nnonsense\n";
+    const std::string text =
+        "#version 450 core\nlayout(location = 0) out vec4 texture_colour;\nfloat a = nonsense;\nvoid main() {}\n";
     try {
         build_full_screen(with_eight_bit_filtering(text, true, Fraction::Rounded));
         FAIL() << "nonsense compiled";

@@ -59,7 +59,20 @@ TEST_F(Planar, GrazingViewsEqualTheCpu) {
     look_along_the_surface();
     const CookedMaterial cooked = cook(kSlitCd, kPlanar);
     show(cooked, 0.2);
-    expect_map(map(cooked));
+    const AtPoint wanted = map_xyz(map(cooked));
+    const AtPoint filtered = map_xyz(filter_error(map(cooked)));
+    // Rasterisers put vertices on a grid of 2^-8 of a pixel, and a row is seen at much less of an angle than the next.
+    const auto allowed = [&](const Point& point) {
+        glm::dvec3 error = filtered(point);
+        for (const glm::dvec2& change : {point.beside.view, point.below.view}) {
+            Point beside = point;
+            const glm::dvec2 view = glm::dvec2(point.view) + change / 256.0;
+            beside.view = {view, std::sqrt(std::max(1.0 - glm::dot(view, view), 0.0))};
+            error += glm::abs(wanted(beside) - wanted(point));
+        }
+        return error;
+    };
+    expect_drawn(wanted, allowed, kMapTolerance);
 }
 
 TEST_F(Planar, NeitherATurnAboutTheNormalNorAChangeOfSceneLightsFillsAMap) {
