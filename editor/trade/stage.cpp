@@ -143,11 +143,13 @@ bool LightLoopType::owns(ecs::World& world, ecs::Entity entity) const {
     return world.find<LightLoopSurface>(entity) != nullptr;
 }
 
-gpu::ProgramDesc LightLoopType::program(ecs::World& /*world*/, ecs::Entity /*entity*/) const {
+gpu::ProgramDesc LightLoopType::program(ecs::World& /*world*/, ecs::Entity /*entity*/,
+                                        render::ProbeSlot /*slot*/) const {
     return {.vertex = "modules/diffraction/shaders/grating.vert.glsl", .fragment = "editor/trade/light_loop.frag.glsl"};
 }
 
-void LightLoopType::bind(ecs::World& world, ecs::Entity entity, const gpu::Program& program) const {
+void LightLoopType::bind(ecs::World& world, ecs::Entity entity, render::ProbeSlot /*slot*/,
+                         const gpu::Program& program) const {
     world.get<LightLoopSurface>(entity).loop->bind(program);
 }
 

@@ -64,9 +64,10 @@ class LightLoopType final : public render::MaterialType {
     std::string name() const override { return "light loop"; }
     void add_shaders(gpu::ShaderLibrary& library) const override;
     bool owns(ecs::World& world, ecs::Entity entity) const override;
-    gpu::ProgramDesc program(ecs::World& world, ecs::Entity entity) const override;
-    void update(ecs::World&, const render::FrameLight&, std::span<const ecs::Entity>) override {}
-    void bind(ecs::World& world, ecs::Entity entity, const gpu::Program& program) const override;
+    gpu::ProgramDesc program(ecs::World& world, ecs::Entity entity, render::ProbeSlot slot) const override;
+    void update(ecs::World&, std::span<const render::FrameLight>, std::span<const render::LitEntity>) override {}
+    void bind(ecs::World& world, ecs::Entity entity, render::ProbeSlot slot,
+              const gpu::Program& program) const override;
 };
 
 /// The disc of disc_mesh() on the GPU, lit by a probe. Needs a current context.

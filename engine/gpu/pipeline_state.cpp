@@ -44,8 +44,9 @@ struct BlendFactors {
     GLenum source, target;
     GLenum source_alpha;
 };
-constexpr std::array<BlendFactors, 5> kBlendFactors = {{{GL_ONE, GL_ZERO, GL_ONE},
-                                                        {GL_ONE, GL_ONE, GL_ONE},
+constexpr std::array<BlendFactors, 6> kBlendFactors = {{{GL_ONE, GL_ZERO, GL_ONE},
+                                                        {GL_ONE, GL_ONE, GL_ZERO},
+                                                        {GL_SRC_ALPHA, GL_ONE, GL_ZERO},
                                                         {GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE},
                                                         {GL_ONE, GL_ONE_MINUS_SRC_ALPHA, GL_ONE},
                                                         {GL_ONE, GL_SRC1_COLOR, GL_ONE}}};

@@ -52,9 +52,10 @@ void forget_bound_state();
 
 enum class DepthTest { Off, Less, LessEqual, Equal };
 enum class Cull { None, Back, Front };
-/// Add: source + target. Over: source·alpha + target·(1 − alpha). Premultiplied: source + target·(1 − alpha).
-/// Filter: source + target·second output (index 1), each component by itself.
-enum class Blend { Off, Add, Over, Premultiplied, Filter };
+/// Add: source + target, whose alpha stays. AddOver: source·alpha + target, likewise. Over: source·alpha + target·(1 −
+/// alpha). Premultiplied: source + target·(1 − alpha). Filter: source + target·second output (index 1), each component
+/// by itself.
+enum class Blend { Off, Add, AddOver, Over, Premultiplied, Filter };
 
 enum class FrontFace { CounterClockwise, Clockwise };
 

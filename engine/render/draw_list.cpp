@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/gtc/matrix_inverse.hpp>
 #include <glm/matrix.hpp>
+#include <tuple>
 #include <utility>
 
 #include "engine/core/check.h"
@@ -61,7 +62,7 @@ UvTransform uv_transform(const scene::TextureTransform& transform) {
             .offset = transform.offset};
 }
 
-ObjectBlock object_block(const Draw& draw, const glm::mat3& rec709_to_working) {
+ObjectBlock object_block(const Draw& draw, const glm::mat3& rec709_to_working, float part) {
     const StandardMaterial& material = *draw.material;
     // Textures and vertex colours multiply in Rec.709; what they do not touch is converted here, once.
     const bool varied = (draw.features & (feature::kBaseColourMap | feature::kColours)) != 0;
@@ -77,6 +78,7 @@ ObjectBlock object_block(const Draw& draw, const glm::mat3& rec709_to_working) {
                                material.clear_coat_roughness);
     block.map_strength = glm::vec4(material.normal_scale, material.occlusion_strength, draw.mirrored ? -1.0F : 1.0F,
                                    static_cast<float>(draw.first_joint));
+    block.light_part = glm::vec4(part, 0.0F, 0.0F, 0.0F);
     if ((draw.features & feature::kTextureTransformExtension) == 0) return block;
     for (std::size_t i = 0; i < kSurfaceMaps.size(); ++i) {
         const UvTransform uv = uv_transform((material.*kSurfaceMaps[i].texture).transform);
@@ -87,7 +89,9 @@ ObjectBlock object_block(const Draw& draw, const glm::mat3& rec709_to_working) {
 }
 
 void sort_opaque(std::vector<const Draw*>& draws) {
-    std::ranges::stable_sort(draws, {}, [](const Draw* draw) { return std::pair(draw->program, draw->distance2); });
+    std::ranges::stable_sort(draws, {}, [](const Draw* draw) {
+        return std::tuple(draw->first.program, draw->light.first, draw->distance2);
+    });
 }
 
 namespace {
@@ -117,6 +121,14 @@ std::optional<gpu::PipelineState> state_of(const Draw& draw, glm::ivec2 size) {
         state.scissor = columns_of(*draw.columns, size);
         if (state.scissor->width == 0) return std::nullopt;
     }
+    return state;
+}
+
+gpu::PipelineState adding(const gpu::PipelineState& first) {
+    gpu::PipelineState state = first;
+    state.depth_test = gpu::DepthTest::LessEqual;
+    state.depth_write = false;
+    state.blend = first.blend == gpu::Blend::Over ? gpu::Blend::AddOver : gpu::Blend::Add;
     return state;
 }
 

@@ -41,16 +41,22 @@ struct Draw {
     bool skinned = false;
     std::size_t first_joint = 0;
     SurfaceFeatures features = 0;
-    bool in_picture = false;                        ///< its bounds are
-    const gpu::Program* program = nullptr;          ///< null if it is not drawn in the main pass
-    const gpu::Program* overlay_program = nullptr;  ///< MaterialType::overlay_program(), or null
-    const gpu::Program* depth_program = nullptr;    ///< null if it is not drawn into the depth of occlusion
-    const gpu::Program* shadow_program = nullptr;   ///< null if no light casts its shadow
-    std::size_t block_offset = 0;                   ///< of its ObjectBlock, bytes
-    float distance2 = 0.0F;                         ///< from the eye to the bounds' centre, squared
-    const PictureColumns* columns = nullptr;        ///< null: all
-    std::optional<ecs::Entity> reflects = {};       ///< the group of its ReflectsObjects
-    const ObjectReflection* reflection = nullptr;   ///< of that group
+    bool in_picture = false;  ///< its bounds are
+    LightMix light = {};
+    /// Under one of its probes.
+    struct Lit {
+        const gpu::Program* program = nullptr;          ///< null if it is not drawn in the main pass
+        const gpu::Program* overlay_program = nullptr;  ///< MaterialType::overlay_program(), or null
+        std::size_t block_offset = 0;                   ///< of its ObjectBlock, bytes
+    };
+    Lit first = {};
+    Lit second = {};
+    const gpu::Program* depth_program = nullptr;   ///< null if it is not drawn into the depth of occlusion
+    const gpu::Program* shadow_program = nullptr;  ///< null if no light casts its shadow
+    float distance2 = 0.0F;                        ///< from the eye to the bounds' centre, squared
+    const PictureColumns* columns = nullptr;       ///< null: all
+    std::optional<ecs::Entity> reflects = {};      ///< the group of its ReflectsObjects
+    const ObjectReflection* reflection = nullptr;  ///< of that group
 };
 
 struct DrawList {
@@ -69,12 +75,15 @@ struct UvTransform {
 /// KHR_texture_transform: offset · rotation · scale, the rotation counter-clockwise where v points down.
 UvTransform uv_transform(const scene::TextureTransform& transform);
 
-ObjectBlock object_block(const Draw& draw, const glm::mat3& rec709_to_working);
+/// `part`: of the draw's light.
+ObjectBlock object_block(const Draw& draw, const glm::mat3& rec709_to_working, float part);
 
-/// By program, and from front to back within one: few changes of state, little overdraw.
+/// By program and probe, and from front to back within one: few changes of state, little overdraw.
 void sort_opaque(std::vector<const Draw*>& draws);
 
 /// The fixed-function state that draws a surface into a target of this size; none if no pixel may change.
 std::optional<gpu::PipelineState> state_of(const Draw& draw, glm::ivec2 size);
+/// That which adds the surface under its second probe.
+gpu::PipelineState adding(const gpu::PipelineState& first);
 
 }  // namespace rowland::render

@@ -38,15 +38,18 @@ void MaterialType::attach(ecs::World& /*world*/, ecs::Entity /*entity*/, const M
     ROWLAND_CHECK(false, "attach() on a material type without a glTF extension, for " + extension.pointer);
 }
 
-std::optional<gpu::ProgramDesc> MaterialType::overlay_program(ecs::World& /*world*/, ecs::Entity /*entity*/) const {
+std::optional<gpu::ProgramDesc> MaterialType::overlay_program(ecs::World& /*world*/, ecs::Entity /*entity*/,
+                                                              ProbeSlot /*slot*/) const {
     return std::nullopt;
 }
 
-std::vector<gpu::ProgramDesc> MaterialType::later_programs(ecs::World& /*world*/, ecs::Entity /*entity*/) const {
+std::vector<gpu::ProgramDesc> MaterialType::later_programs(ecs::World& /*world*/, ecs::Entity /*entity*/,
+                                                           ProbeSlot /*slot*/) const {
     return {};
 }
 
-void MaterialType::bind_overlay(ecs::World& /*world*/, ecs::Entity /*entity*/, const gpu::Program& /*program*/) const {
+void MaterialType::bind_overlay(ecs::World& /*world*/, ecs::Entity /*entity*/, ProbeSlot /*slot*/,
+                                const gpu::Program& /*program*/) const {
     ROWLAND_CHECK(false, "bind_overlay() on a material type without overlay_program()");
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <memory>
@@ -76,6 +77,26 @@ struct FrameLight {
     }
 };
 
+/// The probes of an object, as indexes of a frame's FrameLights: 0 is the renderer's own, i + 1 that of its volume i
+/// (probe_volumes.h). Two at most: `first` below `second`, whose part of the light is `second_part`; 0: there is none.
+struct LightMix {
+    std::size_t first = 0;
+    std::size_t second = 0;
+    float second_part = 0.0F;
+
+    bool has_second() const { return second_part > 0.0F; }
+    bool is_local() const { return first > 0 || has_second(); }
+};
+
+/// An entity that is drawn, and its light.
+struct LitEntity {
+    ecs::Entity entity;
+    LightMix light;
+};
+
+/// Which of an entity's probes: one between two is drawn under each, and the pictures are added.
+enum class ProbeSlot { First, Second };
+
 class SurfaceTextures;
 
 /// A material extension of a scene, as attach() is given it.
@@ -116,21 +137,23 @@ class MaterialType {
     /// Whether it draws this entity. At most one type may.
     virtual bool owns(ecs::World& world, ecs::Entity entity) const = 0;
     /// The program that draws an owned entity; equal descriptions share one.
-    virtual gpu::ProgramDesc program(ecs::World& world, ecs::Entity entity) const = 0;
+    virtual gpu::ProgramDesc program(ecs::World& world, ecs::Entity entity, ProbeSlot slot) const = 0;
     /// A second program, with which an owned entity that passes light is drawn again, over itself; nullopt: none.
-    virtual std::optional<gpu::ProgramDesc> overlay_program(ecs::World& world, ecs::Entity entity) const;
+    virtual std::optional<gpu::ProgramDesc> overlay_program(ecs::World& world, ecs::Entity entity,
+                                                            ProbeSlot slot) const;
     /// Programs that will draw an owned entity in place of program() and overlay_program(), without a change of the
     /// scene: they are compiled in this frame as well.
-    virtual std::vector<gpu::ProgramDesc> later_programs(ecs::World& world, ecs::Entity entity) const;
+    virtual std::vector<gpu::ProgramDesc> later_programs(ecs::World& world, ecs::Entity entity, ProbeSlot slot) const;
     /// Once a frame, before anything is drawn and the programs of all entities are asked for: updates per-object data.
-    /// `seen`: the drawn entities, of any type, that are in the picture, then others that mirrors may show.
-    virtual void update(ecs::World& world, const FrameLight& light, std::span<const ecs::Entity> seen) = 0;
+    /// `lights`: under each of the frame's probes. `seen`: the drawn entities, of any type, that are in the picture,
+    /// then others that mirrors may show.
+    virtual void update(ecs::World& world, std::span<const FrameLight> lights, std::span<const LitEntity> seen) = 0;
     /// Changes in each update() after which an entity looks different, though neither it nor the light has moved.
     virtual std::uint64_t version() const { return 0; }
     /// Binds what an owned entity's program reads. The program is in use.
-    virtual void bind(ecs::World& world, ecs::Entity entity, const gpu::Program& program) const = 0;
+    virtual void bind(ecs::World& world, ecs::Entity entity, ProbeSlot slot, const gpu::Program& program) const = 0;
     /// The same for overlay_program().
-    virtual void bind_overlay(ecs::World& world, ecs::Entity entity, const gpu::Program& program) const;
+    virtual void bind_overlay(ecs::World& world, ecs::Entity entity, ProbeSlot slot, const gpu::Program& program) const;
 };
 
 /// The type that draws an entity; null: the engine's own surface. `file` and `json_pointer` (empty: the

@@ -33,13 +33,13 @@ glm::vec2 along_plane(const glm::vec3& position) {
     return {position.x, position.z};
 }
 
-glm::vec3 ambient_radiance(const PlaneLight& light, const glm::dvec3& normal) {
+glm::vec3 ambient_radiance(const LitProbe& probe, const glm::mat3& rec709_to_working, const glm::dvec3& normal) {
     std::array<double, 9> basis = {};
     math::evaluate_sh(normal, 3, basis);
     glm::dvec3 sum(0.0);
-    for (std::size_t i = 0; i < basis.size(); ++i) sum += basis[i] * light.ambient.coefficients[i];
-    sum += lighting::LobeIrradiance(light.keys)(normal) / std::numbers::pi;
-    return glm::max(light.rec709_to_working * glm::vec3(sum), 0.0F);
+    for (std::size_t i = 0; i < basis.size(); ++i) sum += basis[i] * probe.ambient.coefficients[i];
+    sum += lighting::LobeIrradiance(probe.light.key_lights())(normal) / std::numbers::pi;
+    return glm::max(rec709_to_working * glm::vec3(sum), 0.0F);
 }
 
 void add_lights(const SceneLights& lights, const glm::vec3& normal, ReflectionBlock& block) {
@@ -101,8 +101,10 @@ bool LocalReflection::update(ecs::World& world, const PlaneLight& light, float p
                 glm::normalize(glm::inverseTranspose(glm::mat3(matrix)) * glm::vec3(0.0F, 1.0F, 0.0F));
             block->plane_normal = glm::vec4(normal, material.roughness);
             normal_ = normal;
-            height_ = glm::dot(normal, glm::vec3(matrix * glm::vec4(top.centre, 1.0F)));
-            block->plane_ambient = glm::vec4(ambient_radiance(light, glm::dvec3(normal)), 0.0F);
+            const glm::vec3 middle(matrix * glm::vec4(top.centre, 1.0F));
+            height_ = glm::dot(normal, middle);
+            block->plane_ambient =
+                glm::vec4(ambient_radiance(light.probe_at(middle), light.rec709_to_working, glm::dvec3(normal)), 0.0F);
             add_lights(light.lights, normal, *block);
             block->plane_colour = glm::vec4(
                 map_ != nullptr ? material.base_colour : light.rec709_to_working * material.base_colour, 1.0F);
@@ -200,7 +202,7 @@ void add_bytes(Hasher& hasher, const T& value) {
 void add_draw(Hasher& hasher, const Draw& draw) {
     add_bytes(hasher, draw.entity);
     add_bytes(hasher, draw.mesh);
-    add_bytes(hasher, draw.program);
+    add_bytes(hasher, draw.first.program);
     for (const SurfaceMap& map : kSurfaceMaps) add_bytes(hasher, (draw.material->*map.texture).texture.get());
 }
 
@@ -224,7 +226,11 @@ void Renderer::update_reflection(ecs::World& world, const Frame& frame) {
     if (effects_.local_reflections && frame.shading == Shading::Full) {
         if (!reflection_) reflection_.emplace();
         const float height = static_cast<float>(frame.size.y);
-        const PlaneLight light{ambient_, light_.key_lights(), lights_, glm::mat3(rec709_to_working_)};
+        const auto probe_at = [&](const glm::vec3& point) -> const LitProbe& {
+            const LightMix mix = light_at(point, volumes_.boxes);
+            return *frame_probes_[mix.second_part > 0.5F ? mix.second : mix.first];
+        };
+        const PlaneLight light{probe_at, lights_, glm::mat3(rec709_to_working_)};
         if (reflection_->update(world, light, frame.camera->vertical_field_of_view / height)) return;
     }
     reflection_.reset();
@@ -262,7 +268,8 @@ Renderer::Frame Renderer::surroundings(ecs::World& world, const Frame& frame, ec
                (reflection_ && reflection_->covers(draw.bounds));
     });
     for (Draw& draw : around.list.draws) {
-        draw.program = &program_of(world, draw);
+        draw.first.program = &program_of(world, draw, ProbeSlot::First);
+        if (draw.light.has_second()) draw.second.program = &program_of(world, draw, ProbeSlot::Second);
         draw.columns = nullptr;
         draw.reflection = &object_reflections_->nothing;
     }
@@ -275,14 +282,15 @@ void Renderer::update_staleness(const Frame& around, ObjectReflection& reflectio
     Hasher scene;
     Hasher motion;
     add_bytes(scene, reflection.centre);
-    add_bytes(scene, light_.version);
+    for (const LitProbe* probe : frame_probes_) add_bytes(scene, probe->light.version);
     add_bytes(scene, lights_.block);
     for (const auto& type : types_) add_bytes(motion, type->version());
     for (const glm::mat4& joint : around.list.joints) add_bytes(motion, joint);
     const glm::mat3 to_working(rec709_to_working_);
     for (const Draw& draw : around.list.draws) {
         add_draw(scene, draw);
-        add_bytes(motion, object_block(draw, to_working));
+        add_bytes(motion, object_block(draw, to_working, 1.0F - draw.light.second_part));
+        add_bytes(motion, std::pair(draw.light.first, draw.light.second));
     }
     const Hash128 new_scene = scene.digest();
     const Hash128 new_motion = motion.digest();
@@ -319,7 +327,7 @@ void Renderer::draw_surroundings(ecs::World& world, Frame& around, ObjectReflect
         picture.bind();
         picture.clear(glm::vec4(0.0F));
         picture.clear_depth();
-        draw_pass(world, around.opaque, around.size);
+        draw_pass(world, around, around.opaque);
         reflection.store(programs_, object_reflections_->triangle, picture, face);
     }
     std::swap(frame_data_, reflection.frame_data);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <glm/mat2x2.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/vec2.hpp>
@@ -18,6 +19,7 @@
 #include "engine/gpu/program.h"
 #include "engine/gpu/texture.h"
 #include "engine/lighting/light_probe.h"
+#include "engine/render/probe_volumes.h"
 #include "engine/render/scene_lights.h"
 #include "engine/render/surface_programs.h"
 #include "engine/scene/camera.h"
@@ -44,8 +46,7 @@ ReflectedTop top_of(const scene::Mesh& mesh);
 
 /// The light on a plane, in the working space.
 struct PlaneLight {
-    const lighting::AmbientLight& ambient;
-    std::span<const lighting::KeyLight> keys;
+    std::function<const LitProbe&(const glm::vec3&)> probe_at;  ///< that lights most at a point
     const SceneLights& lights;
     glm::mat3 rec709_to_working{1.0F};
 };

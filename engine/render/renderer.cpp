@@ -71,15 +71,13 @@ std::vector<std::string> Renderer::gltf_extensions() const {
 }
 
 void Renderer::set_probe(lighting::LightProbe probe) {
-    environment_ = environment_map(probe, rec709_to_working_);
-    mirror_ = mirror_map(probe, rec709_to_working_);
-    light_.probe = std::make_shared<const lighting::LightProbe>(std::move(probe));
-    probe_changed_ = true;
+    probe_.emplace();
+    probe_->light.probe = std::make_shared<const lighting::LightProbe>(std::move(probe));
+    put_on_gpu(*probe_, rec709_to_working_);
 }
 
 void Renderer::use_key_lights(bool use) {
-    if (use != light_.analytic_key_lights) probe_changed_ = true;
-    light_.analytic_key_lights = use;
+    analytic_key_lights_ = use;
 }
 
 void Renderer::set_shadow_map_size(int size) {
@@ -102,7 +100,7 @@ void Renderer::reload_shaders(const std::filesystem::path& source_tree) {
 }
 
 void Renderer::render(ecs::World& world, const scene::Camera& camera, const gpu::Framebuffer& target, Shading shading) {
-    ROWLAND_CHECK(environment_.has_value(), "render() before set_probe()");
+    ROWLAND_CHECK(probe_.has_value(), "render() before set_probe()");
     const glm::ivec2 size = target.size();
     Frame frame;
     frame.camera = &camera;
@@ -118,6 +116,7 @@ void Renderer::render(ecs::World& world, const scene::Camera& camera, const gpu:
     update_light(world);
     update_reflection(world, frame);
     frame.list = gather_draws(world, types_, light_features(frame));
+    choose_probes(frame);
     update_materials(world, frame);
     select_draws(world, frame);
     select_casters(frame);
@@ -130,13 +129,13 @@ void Renderer::render(ecs::World& world, const scene::Camera& camera, const gpu:
         const gpu::PassTimes::Scope scope(times_, "opaque");
         target.bind();
         target.clear_depth();
-        draw_pass(world, frame.opaque, size);
+        draw_pass(world, frame, frame.opaque);
     }
-    draw_sky();
+    draw_sky(frame);
     if (!frame.blended.empty()) {
         const gpu::PassTimes::Scope scope(times_, "blend");
         target.bind();
-        draw_pass(world, frame.blended, size);
+        draw_pass(world, frame, frame.blended);
     }
     report_.programs = static_cast<int>(programs_.size());
     if (times_ != nullptr) report_.passes = times_->latest();
@@ -149,29 +148,13 @@ void Renderer::update_light(ecs::World& world) {
                     ROWLAND_MAXIMUM_LIGHTS);
         warned_dropped_lights_ = true;
     }
-    light_.light_strengths = lights_.strengths;
-    std::vector<DistantLight> distant = distant_lights(world);
-    if (!probe_changed_ && distant == light_.distant_lights) return;
-    if (probe_changed_) update_ambient();
-    light_.distant_lights = std::move(distant);
-    ++light_.version;
-}
-
-void Renderer::update_ambient() {
-    const lighting::LightProbe& probe = *light_.probe;
-    const std::span<const lighting::KeyLight> keys = light_.key_lights();
-    key_irradiance_.reset();
-    ambient_ = probe.ambient;
-    if (!keys.empty()) {
-        ambient_ = lighting::ambient_coefficients(lighting::residual(probe.sh, keys, probe.sh.bands), keys);
-        key_irradiance_ = key_irradiance_map(keys, rec709_to_working_);
-    }
-    probe_changed_ = false;
+    update_volumes(world);
 }
 
 SurfaceFeatures Renderer::light_features(const Frame& frame) const {
     SurfaceFeatures features = lights_.features();
-    if (!light_.key_lights().empty()) features |= feature::kKeyLights;
+    const auto has_keys = [](const LitProbe* probe) { return !probe->light.key_lights().empty(); };
+    if (std::ranges::any_of(frame_probes_, has_keys)) features |= feature::kKeyLights;
     if (frame.occlusion) features |= feature::kAmbientOcclusion;
     if (lights_.shadow_light && effects_.soft_shadows) features |= feature::kSoftShadows;
     if (reflection_) features |= feature::kLocalReflections;
@@ -183,16 +166,16 @@ SurfaceFeatures Renderer::light_features(const Frame& frame) const {
 void Renderer::update_materials(ecs::World& world, Frame& frame) {
     const Frustum frustum(frame.view_projection);
     bool mirrors = false;
-    std::vector<ecs::Entity> seen;
-    std::vector<ecs::Entity> others;
+    std::vector<LitEntity> seen;
+    std::vector<LitEntity> others;
     for (Draw& draw : frame.list.draws) {
         draw.in_picture = frustum.may_see(draw.bounds);
-        (draw.in_picture ? seen : others).push_back(draw.entity);
+        (draw.in_picture ? seen : others).push_back({draw.entity, draw.light});
         mirrors = mirrors || (draw.features & feature::kObjectReflections) != 0;
     }
     if (frame.shading == Shading::Unlit) return;
     if (mirrors) seen.insert(seen.end(), others.begin(), others.end());
-    for (const auto& type : types_) type->update(world, light_, seen);
+    for (const auto& type : types_) type->update(world, frame_lights_, seen);
 }
 
 void Renderer::select_draws(ecs::World& world, Frame& frame) {
@@ -201,21 +184,26 @@ void Renderer::select_draws(ecs::World& world, Frame& frame) {
         if (frame.shading == Shading::Unlit) {
             draw.type = nullptr;
             draw.features = without_light(draw.features);
+            draw.light = {};
         }
         // Also for what is not seen yet, so that no later frame waits for a compiler.
-        const gpu::Program& program = program_of(world, draw);
-        draw.overlay_program = overlay_program_of(world, draw);
-        compile_later_programs(world, draw);
+        for (const ProbeSlot slot : {ProbeSlot::First, ProbeSlot::Second}) {
+            if (slot == ProbeSlot::Second && !draw.light.has_second()) continue;
+            Draw::Lit& lit = slot == ProbeSlot::First ? draw.first : draw.second;
+            lit.program = &program_of(world, draw, slot);
+            lit.overlay_program = overlay_program_of(world, draw, slot);
+            compile_later_programs(world, draw, slot);
+        }
         if (frame.occlusion && (draw.features & feature::kAlphaBlend) == 0)
             draw.depth_program = &surface_program(kShadowShader, of_shadow(draw.features) | feature::kFromEye);
         if (!draw.in_picture) {
+            draw.first.program = nullptr;
             ++report_.culled;
             continue;
         }
         ++report_.drawn;
         const glm::vec3 from_eye = centre_of(draw.bounds) - frame.camera->eye;
         draw.distance2 = glm::dot(from_eye, from_eye);
-        draw.program = &program;
         const glm::vec3 half = 0.5F * (draw.bounds.maximum - draw.bounds.minimum);
         frame.farthest = std::max(frame.farthest, glm::dot(from_eye, forward) + glm::dot(half, glm::abs(forward)));
         frame.used.push_back(&draw);
@@ -239,11 +227,12 @@ void Renderer::select_casters(Frame& frame) {
         draw.shadow_program = &surface_program(kShadowShader, of_shadow(draw.features));
         if (!frame.shadow.may_see(draw.bounds)) continue;
         frame.casters.push_back(&draw);
-        if (draw.program == nullptr) frame.used.push_back(&draw);
+        if (draw.first.program == nullptr) frame.used.push_back(&draw);
     }
 }
 
-FrameBlock Renderer::frame_block(const Frame& frame) const {
+FrameBlock Renderer::frame_block(const Frame& frame, std::size_t index) const {
+    const LitProbe& probe = *frame_probes_[index];
     const scene::Camera& camera = *frame.camera;
     FrameBlock block = {};
     block.view_projection = frame.view_projection;
@@ -253,28 +242,38 @@ FrameBlock Renderer::frame_block(const Frame& frame) const {
     block.rec709_to_working = glm::mat4(glm::mat3(rec709_to_working_));
     block.eye = glm::vec4(camera.eye, 1.0F);
     for (std::size_t i = 0; i < 9; ++i)
-        block.ambient[i] = glm::vec4(glm::vec3(rec709_to_working_ * ambient_.coefficients[i]), 0.0F);
-    block.environment = glm::vec4(static_cast<float>(environment_->map.levels() - 1), environment_->scale,
-                                  key_irradiance_ ? key_irradiance_->scale : 0.0F, 0.0F);
+        block.ambient[i] = glm::vec4(glm::vec3(rec709_to_working_ * probe.ambient.coefficients[i]), 0.0F);
+    block.environment = glm::vec4(static_cast<float>(probe.environment->map.levels() - 1), probe.environment->scale,
+                                  probe.key_irradiance ? probe.key_irradiance->scale : 0.0F, 0.0F);
+    constexpr float kFar_m = 1e6F;  // half of the box about the renderer's own probe
+    block.box_to_world = index > 0 ? volumes_.boxes[index - 1].box_to_world : glm::mat4(glm::mat3(kFar_m));
+    block.world_to_box = index > 0 ? volumes_.boxes[index - 1].world_to_box : glm::mat4(glm::mat3(1.0F / kFar_m));
     block.shadow = glm::vec4(frame.shadow.texel_m, 1.0F / static_cast<float>(shadow_map_size_),
                              frame.into_halves ? 1.0F : 0.0F, 0.0F);
     if (effects_.soft_shadows)
         block.shadow.w = penumbra_over_depth(frame.shadow, shadow_map_size_, effects_.soft_shadows->angular_radius);
     const glm::vec2 pixel = 1.0F / glm::vec2(frame.size);
     block.dome = glm::vec4(0.0F, 0.0F, pixel);
-    if (const auto& dome = light_.probe->dome) block.dome = glm::vec4(dome->height_m, dome->radius_m, pixel);
+    if (const auto& dome = probe.light.probe->dome) block.dome = glm::vec4(dome->height_m, dome->radius_m, pixel);
     return block;
 }
 
 void Renderer::upload(Frame& frame) {
-    const FrameBlock frame_data = frame_block(frame);
     const glm::mat3 to_working(rec709_to_working_);
     staging_.clear();
-    append(staging_, &frame_data);
+    frame.frame_offsets.assign(frame_probes_.size(), 0);
+    for (std::size_t i = 0; i < frame_probes_.size(); ++i) {
+        if (!frame.lit[i]) continue;
+        const FrameBlock block = frame_block(frame, i);
+        frame.frame_offsets[i] = append(staging_, &block);
+    }
     frame.light_offset = append(staging_, &lights_.block);
     for (Draw* draw : frame.used) {
-        const ObjectBlock block = object_block(*draw, to_working);
-        draw->block_offset = append(staging_, &block);
+        const ObjectBlock block = object_block(*draw, to_working, 1.0F - draw->light.second_part);
+        draw->first.block_offset = append(staging_, &block);
+        if (!draw->light.has_second()) continue;
+        const ObjectBlock second = object_block(*draw, to_working, draw->light.second_part);
+        draw->second.block_offset = append(staging_, &second);
     }
     if (!frame.list.joints.empty()) {
         gpu::require_vertex_storage({.what = "skinned meshes",
@@ -287,14 +286,11 @@ void Renderer::upload(Frame& frame) {
 }
 
 void Renderer::bind_frame(const Frame& frame) const {
-    frame_data_.bind_uniform(kFrameBinding, 0, sizeof(FrameBlock));
     frame_data_.bind_uniform(kLightBinding, frame.light_offset, sizeof(LightBlock));
     if (!frame.list.joints.empty())
         frame_data_.bind_storage(kJointBinding, frame.joints_offset, frame.list.joints.size() * sizeof(glm::mat4));
-    if (key_irradiance_) key_irradiance_->map.bind(kKeyIrradianceUnit);
     if (reflection_) reflection_->bind();
-    environment_->map.bind(kEnvironmentUnit);
-    mirror_.bind(kMirrorUnit);
+    bind_probe(frame, 0);
     brdf_table_.bind(kBrdfUnit);
     lobe_nodes_.bind(kLobeNodesUnit);
 }
@@ -317,7 +313,7 @@ void Renderer::draw_shadow_map(Frame& frame) {
 }
 
 void Renderer::draw_outline(const Draw& draw, const gpu::Program& program) const {
-    frame_data_.bind_uniform(kObjectBinding, draw.block_offset, sizeof(ObjectBlock));
+    frame_data_.bind_uniform(kObjectBinding, draw.first.block_offset, sizeof(ObjectBlock));
     program.use();
     if ((of_shadow(draw.features) & feature::kBaseColourMap) != 0)
         draw.material->base_colour_texture.texture->bind(kFirstMapUnit);
@@ -336,8 +332,6 @@ void Renderer::draw_occlusion(const Frame& frame) {
         draw_outline(*draw, *draw->depth_program);
     }
     occlusion_->draw(programs_, *frame.camera, frame.aspect, lights_.shadow_light, *effects_.ambient_occlusion);
-    // The pass reads its textures where the surfaces read the environment.
-    environment_->map.bind(kEnvironmentUnit);
     occlusion_->visibility().bind(kVisibilityUnit);
 }
 
@@ -346,49 +340,60 @@ void Renderer::bind_surface(const Draw& draw) const {
         if ((draw.features & map.bit) != 0) (draw.material->*map.texture).texture->bind(map.unit);
 }
 
-void Renderer::draw_pass(ecs::World& world, const std::vector<const Draw*>& draws, glm::ivec2 size) {
+void Renderer::draw_pass(ecs::World& world, const Frame& frame, const std::vector<const Draw*>& draws) {
     for (const Draw* draw : draws) {
-        const auto state = state_of(*draw, size);
+        const auto state = state_of(*draw, frame.size);
         if (!state) continue;
         gpu::apply(*state);
-        frame_data_.bind_uniform(kObjectBinding, draw->block_offset, sizeof(ObjectBlock));
-        draw->program->use();
-        bind_surface(*draw);
-        if (draw->type != nullptr) draw->type->bind(world, draw->entity, *draw->program);
-        if ((draw->features & feature::kObjectReflections) != 0) draw->reflection->bind(*draw->program);
-        draw->mesh->draw();
-        if (draw->overlay_program == nullptr) continue;
-        draw->overlay_program->use();
-        draw->type->bind_overlay(world, draw->entity, *draw->overlay_program);
-        draw->mesh->draw();
+        draw_lit(world, frame, *draw, ProbeSlot::First);
+        if (!draw->light.has_second()) continue;
+        gpu::apply(adding(*state));
+        draw_lit(world, frame, *draw, ProbeSlot::Second);
     }
 }
 
-void Renderer::draw_sky() {
+void Renderer::draw_lit(ecs::World& world, const Frame& frame, const Draw& draw, ProbeSlot slot) const {
+    const bool second = slot == ProbeSlot::Second;
+    const Draw::Lit& lit = second ? draw.second : draw.first;
+    bind_probe(frame, second ? draw.light.second : draw.light.first);
+    frame_data_.bind_uniform(kObjectBinding, lit.block_offset, sizeof(ObjectBlock));
+    lit.program->use();
+    bind_surface(draw);
+    if (draw.type != nullptr) draw.type->bind(world, draw.entity, slot, *lit.program);
+    if ((draw.features & feature::kObjectReflections) != 0) draw.reflection->bind(*lit.program);
+    draw.mesh->draw();
+    if (lit.overlay_program == nullptr) return;
+    lit.overlay_program->use();
+    draw.type->bind_overlay(world, draw.entity, slot, *lit.overlay_program);
+    draw.mesh->draw();
+}
+
+void Renderer::draw_sky(const Frame& frame) {
     const gpu::PassTimes::Scope scope(times_, "sky");
     gpu::apply({.depth_test = gpu::DepthTest::LessEqual, .depth_write = false, .cull = gpu::Cull::None});
+    bind_probe(frame, 0);
     programs_.get(shader_pair("sky")).use();
     no_vertices_.draw(3);
 }
 
-const gpu::Program& Renderer::program_of(ecs::World& world, const Draw& draw) {
+const gpu::Program& Renderer::program_of(ecs::World& world, const Draw& draw, ProbeSlot slot) {
     if (draw.type == nullptr) return surface_program(kPlainShader, draw.features);
-    gpu::ProgramDesc desc = draw.type->program(world, draw.entity);
+    gpu::ProgramDesc desc = draw.type->program(world, draw.entity, slot);
     add_defines(draw.features, desc);
     return programs_.get(desc);
 }
 
-const gpu::Program* Renderer::overlay_program_of(ecs::World& world, const Draw& draw) {
+const gpu::Program* Renderer::overlay_program_of(ecs::World& world, const Draw& draw, ProbeSlot slot) {
     if (draw.type == nullptr || (draw.features & feature::kPassesLight) == 0) return nullptr;
-    std::optional<gpu::ProgramDesc> desc = draw.type->overlay_program(world, draw.entity);
+    std::optional<gpu::ProgramDesc> desc = draw.type->overlay_program(world, draw.entity, slot);
     if (!desc) return nullptr;
     add_defines(draw.features, *desc);
     return &programs_.get(*desc);
 }
 
-void Renderer::compile_later_programs(ecs::World& world, const Draw& draw) {
+void Renderer::compile_later_programs(ecs::World& world, const Draw& draw, ProbeSlot slot) {
     if (draw.type == nullptr) return;
-    for (gpu::ProgramDesc& desc : draw.type->later_programs(world, draw.entity)) {
+    for (gpu::ProgramDesc& desc : draw.type->later_programs(world, draw.entity, slot)) {
         add_defines(draw.features, desc);
         programs_.get(desc);
     }

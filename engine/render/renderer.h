@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <glm/mat3x3.hpp>
 #include <glm/mat4x4.hpp>
@@ -24,6 +25,7 @@
 #include "engine/render/effects.h"
 #include "engine/render/light_maps.h"
 #include "engine/render/material.h"
+#include "engine/render/probe_volumes.h"
 #include "engine/render/reflections.h"
 #include "engine/render/scene_lights.h"
 #include "engine/render/shaders/scene_blocks.h"
@@ -49,7 +51,8 @@ struct FrameReport {
 };
 
 /// Forward HDR renderer: draws all entities with a MeshInstance, a StandardMaterial and a WorldMatrix, then the sky,
-/// then those that blend, into a float framebuffer with depth, in the working space. Light comes from the probe and
+/// then those that blend, into a float framebuffer with depth, in the working space. Light comes from the probe or, by
+/// the centre of an entity's bounds, from up to two probes of entities with a ProbeVolume, and
 /// from entities with a DirectionalLight or a PunctualLight, at most 64; the first directional light that casts_shadow
 /// does. An entity with PictureColumns is drawn in those only, and casts its whole shadow.
 class Renderer {
@@ -62,7 +65,7 @@ class Renderer {
     /// The glTF material extensions of the registered types.
     std::vector<std::string> gltf_extensions() const;
 
-    /// Lights the scene with this probe.
+    /// Lights the scene with this probe where no ProbeVolume does. It is the sky.
     void set_probe(lighting::LightProbe probe);
     /// Whether the probe's key lights are shaded as analytic lights (FrameLight::analytic_key_lights). Off by default:
     /// diffuse light is the probe's first nine SH terms.
@@ -105,20 +108,25 @@ class Renderer {
         std::vector<const Draw*> blended;
         std::vector<const Draw*> casters;
         ShadowView shadow;
-        std::size_t light_offset = 0;   ///< of the LightBlock in frame_data_, bytes
-        std::size_t joints_offset = 0;  ///< of the joint matrices
-        float farthest = 0.0F;          ///< extent of the drawn entities along the camera's axis
+        std::vector<bool> lit;                   ///< by probe: whether it lights a draw
+        std::vector<std::size_t> frame_offsets;  ///< by probe: of its FrameBlock in frame_data_, bytes
+        std::size_t light_offset = 0;            ///< of the LightBlock in frame_data_, bytes
+        std::size_t joints_offset = 0;           ///< of the joint matrices
+        float farthest = 0.0F;                   ///< extent of the drawn entities along the camera's axis
     };
 
     SurfaceFeatures light_features(const Frame& frame) const;
     void update_light(ecs::World& world);
-    void update_ambient();
+    void update_volumes(ecs::World& world);
+    void update_ambient(LitProbe& probe) const;
+    void choose_probes(Frame& frame);
     void update_materials(ecs::World& world, Frame& frame);
     void select_draws(ecs::World& world, Frame& frame);
     void select_casters(Frame& frame);
-    FrameBlock frame_block(const Frame& frame) const;
+    FrameBlock frame_block(const Frame& frame, std::size_t probe) const;
     void upload(Frame& frame);
     void bind_frame(const Frame& frame) const;
+    void bind_probe(const Frame& frame, std::size_t probe) const;
     void draw_shadow_map(Frame& frame);
     void draw_occlusion(const Frame& frame);
     void update_reflection(ecs::World& world, const Frame& frame);
@@ -127,12 +135,13 @@ class Renderer {
     void update_staleness(const Frame& around, ObjectReflection& reflection) const;
     void draw_surroundings(ecs::World& world, Frame& around, ObjectReflection& reflection);
     void draw_outline(const Draw& draw, const gpu::Program& program) const;
-    void draw_pass(ecs::World& world, const std::vector<const Draw*>& draws, glm::ivec2 size);
-    void draw_sky();
+    void draw_pass(ecs::World& world, const Frame& frame, const std::vector<const Draw*>& draws);
+    void draw_lit(ecs::World& world, const Frame& frame, const Draw& draw, ProbeSlot slot) const;
+    void draw_sky(const Frame& frame);
     void bind_surface(const Draw& draw) const;
-    const gpu::Program& program_of(ecs::World& world, const Draw& draw);
-    const gpu::Program* overlay_program_of(ecs::World& world, const Draw& draw);
-    void compile_later_programs(ecs::World& world, const Draw& draw);
+    const gpu::Program& program_of(ecs::World& world, const Draw& draw, ProbeSlot slot);
+    const gpu::Program* overlay_program_of(ecs::World& world, const Draw& draw, ProbeSlot slot);
+    void compile_later_programs(ecs::World& world, const Draw& draw, ProbeSlot slot);
     const gpu::Program& surface_program(const char* shader, SurfaceFeatures features);
 
     glm::dmat3 xyz_to_working_;
@@ -146,9 +155,6 @@ class Renderer {
     gpu::StreamBuffer frame_data_;    ///< FrameBlock, LightBlock, ObjectBlocks and joint matrices
     gpu::Texture brdf_table_;
     gpu::Texture lobe_nodes_;
-    std::optional<LightMap> environment_;
-    gpu::Texture mirror_;                     ///< in units of environment_'s scale
-    std::optional<LightMap> key_irradiance_;  ///< none without key lights
     std::optional<gpu::Framebuffer> shadow_map_;
     int shadow_map_size_ = 2048;
     Effects effects_;
@@ -156,9 +162,13 @@ class Renderer {
     std::optional<LocalReflection> reflection_;
     std::optional<ObjectReflections> object_reflections_;
 
-    bool probe_changed_ = false;  ///< the probe, or whether its key lights are analytic lights
-    FrameLight light_;
-    lighting::AmbientLight ambient_;  ///< of the probe without its analytic key lights
+    std::optional<LitProbe> probe_;
+    std::map<const lighting::LightProbe*, LitProbe> local_probes_;
+    ProbeVolumes volumes_;                 ///< of the frame
+    std::vector<LitProbe*> frame_probes_;  ///< by index of the frame's lights: probe_, then those of volumes_
+    std::vector<FrameLight> frame_lights_;
+    bool analytic_key_lights_ = false;
+    std::uint64_t light_version_ = 0;
     SceneLights lights_;
     bool warned_dropped_lights_ = false;
     gpu::PassTimes* times_ = nullptr;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <map>
 #include <memory>
 #include <optional>
 #include <set>
@@ -11,6 +12,7 @@
 #include "engine/core/check.h"
 #include "engine/core/log.h"
 #include "engine/render/gpu_mesh.h"
+#include "engine/render/probe_volumes.h"
 #include "engine/render/reflections.h"
 #include "engine/render/surface_textures.h"
 #include "engine/scene/animation.h"
@@ -70,6 +72,18 @@ class Builder {
                    light.light);
     }
 
+    /// One whose file was not there when the scene was cooked is left out.
+    void add_probe(const scene::ImportedProbe& imported) {
+        if (!imported.cooked) return;
+        auto& probe = probes_[imported.cooked.get()];
+        if (!probe)
+            probe = std::make_shared<const lighting::LightProbe>(
+                lighting::deserialise(*imported.cooked, file_ + ": " + imported.uri));
+        const ecs::Entity entity = child_of(imported.node);
+        instance_.probes.push_back(entity);
+        world_.add(entity, ProbeVolume{.probe = probe, .half = 0.5F * imported.size_m, .fade_m = imported.fade_m});
+    }
+
  private:
     /// The node or the nearest one above it that is marked.
     std::optional<std::size_t> reflecting_node(std::optional<std::size_t> node) const {
@@ -125,6 +139,7 @@ class Builder {
     SurfaceTextures textures_;
     std::vector<MeshInstance> meshes_;  ///< by index; made when first used
     std::set<std::string> warned_extensions_;
+    std::map<const std::vector<std::byte>*, std::shared_ptr<const lighting::LightProbe>> probes_;  ///< by payload
 };
 
 }  // namespace
@@ -146,6 +161,7 @@ SceneInstance instantiate(ecs::World& world, const scene::ImportedScene& scene, 
         builder.add_nodes();
         for (const scene::ImportedInstance& imported : scene.instances) builder.add_drawn(imported);
         for (const scene::ImportedLight& light : scene.lights) builder.add_light(light);
+        for (const scene::ImportedProbe& probe : scene.probes) builder.add_probe(probe);
     } catch (...) {
         destroy(world, instance);
         throw;
@@ -154,7 +170,8 @@ SceneInstance instantiate(ecs::World& world, const scene::ImportedScene& scene, 
 }
 
 void destroy(ecs::World& world, const SceneInstance& instance) {
-    for (const std::vector<ecs::Entity>* entities : {&instance.drawn, &instance.lights, &instance.nodes})
+    for (const std::vector<ecs::Entity>* entities :
+         {&instance.drawn, &instance.lights, &instance.probes, &instance.nodes})
         for (const ecs::Entity entity : *entities)
             if (world.alive(entity)) world.destroy(entity);
 }

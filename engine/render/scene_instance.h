@@ -15,6 +15,7 @@ struct SceneInstance {
     std::vector<ecs::Entity> nodes;   ///< one per node, in the import's order: Transform, Parent and NodeMetadata
     std::vector<ecs::Entity> drawn;   ///< one per instance of a primitive: MeshInstance and StandardMaterial
     std::vector<ecs::Entity> lights;  ///< one per light
+    std::vector<ecs::Entity> probes;  ///< one per probe that is there: ProbeVolume
     std::vector<scene::Animation> animations;
 
     /// Sets the nodes' transforms to an animation's at a time. World matrices follow with the next

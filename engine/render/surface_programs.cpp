@@ -9,7 +9,7 @@ namespace rowland::render {
 
 namespace {
 
-constexpr std::array<std::pair<SurfaceFeatures, const char*>, 20> kSwitches = {
+constexpr std::array<std::pair<SurfaceFeatures, const char*>, 21> kSwitches = {
     {{feature::kColours, "HAS_COLOURS"},
      {feature::kSkinned, "SKINNED"},
      {feature::kTextureTransformExtension, "TEXTURE_TRANSFORM"},
@@ -28,6 +28,7 @@ constexpr std::array<std::pair<SurfaceFeatures, const char*>, 20> kSwitches = {
      {feature::kLocalReflections, "LOCAL_REFLECTIONS"},
      {feature::kObjectReflections, "OBJECT_REFLECTIONS"},
      {feature::kRoughReflections, "ROUGH_REFLECTIONS"},
+     {feature::kLocalProbe, "LOCAL_PROBE"},
      {feature::kFromEye, "FROM_EYE"},
      {feature::kScratches, "WEAR_SCRATCHES"}}};
 

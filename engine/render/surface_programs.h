@@ -46,11 +46,12 @@ inline constexpr SurfaceFeatures kSoftShadows = 1U << 28U;
 inline constexpr SurfaceFeatures kLocalReflections = 1U << 29U;
 inline constexpr SurfaceFeatures kFromEye = 1U << 30U;  ///< of a surface's outline: as the camera sees it
 inline constexpr SurfaceFeatures kObjectReflections = 1U << 31U;
-inline constexpr SurfaceFeatures kScratches = 1ULL << 32U;  ///< in the map of wear
+inline constexpr SurfaceFeatures kScratches = 1ULL << 32U;   ///< in the map of wear
+inline constexpr SurfaceFeatures kLocalProbe = 1ULL << 33U;  ///< of a box, or of two probes
 inline constexpr SurfaceFeatures kEffects =
     kAmbientOcclusion | kSoftShadows | kLocalReflections | kObjectReflections | kRoughReflections;
 inline constexpr SurfaceFeatures kLights =
-    kDirectionalLights | kSeveralDirectionalLights | kPunctualLights | kShadows | kKeyLights | kEffects;
+    kDirectionalLights | kSeveralDirectionalLights | kPunctualLights | kShadows | kKeyLights | kLocalProbe | kEffects;
 }  // namespace feature
 
 /// A texture of a surface. Its index in kSurfaceMaps is that of its transform in ObjectBlock.

@@ -3,17 +3,22 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string_view>
 #include <utility>
 
+#include "engine/asset/container.h"
 #include "engine/core/byte_stream.h"
+#include "engine/core/check.h"
 #include "engine/core/error.h"
 #include "engine/core/json_schema.h"
 #include "engine/core/log.h"
 #include "engine/core/text.h"
 #include "engine/scene/glb_write.h"
+#include "engine/scene/gltf_check.h"
 #include "engine/scene/gltf_import.h"
 #include "engine/scene/gltf_source.h"
 #include "engine/scene/mesh_recipe.h"
@@ -24,7 +29,8 @@ namespace {
 
 using Bytes = std::vector<std::byte>;
 
-constexpr std::uint32_t kLayoutVersion = 1;
+constexpr std::uint32_t kLayoutVersion = 2;
+constexpr const char* kProbeAssetType = "probe";
 
 /// The bytes of the file that an object's "uri" names, and removes that member; nullopt: it names none.
 std::optional<Bytes> take_named_file(cook::Context& context, const GltfSource& source, nlohmann::json& object) {
@@ -150,7 +156,50 @@ SceneTables cook_tables(cook::Context& context, const ImportedScene& scene,
     return cooked;
 }
 
-Bytes write_payload(const Bytes& glb, const SceneTables& cooked) {
+/// The payloads of the scene's probes. A file that is not there is left out, so that a scene can be drawn to capture
+/// its probes.
+void read_probes(cook::Context& context, const GltfSource& source, const cook::AssetType* type, ImportedScene& scene) {
+    std::map<std::filesystem::path, std::shared_ptr<const Bytes>> known;
+    for (ImportedProbe& probe : scene.probes) {
+        const std::filesystem::path path =
+            file_of_uri(source, probe.uri, std::string("/nodes/extensions/") + kProbeExtension);
+        auto& payload = known[path];
+        if (!payload) {
+            context.depend_on(path);
+            if (!std::filesystem::exists(path)) {
+                log_warning("{}: {} is not there: its box has the light around it; capture it: rowland-cook capture {}",
+                            source.file, path.string(), source.file);
+                continue;
+            }
+            asset::CookedAsset cooked = asset::unpack(context.read(path, kMaximumHashedBytes), path.string());
+            ROWLAND_CHECK(type != nullptr, "a scene with probes needs the asset type of probes");
+            asset::check_type(cooked.header, kProbeAssetType, type->version, path.string());
+            type->describe(cooked.payload, path.string());
+            payload = std::make_shared<const Bytes>(std::move(cooked.payload));
+        }
+        probe.cooked = payload;
+    }
+}
+
+/// A list of byte arrays in which each is stored once.
+class SharedArrays {
+ public:
+    std::uint32_t index_of(const std::shared_ptr<const Bytes>& bytes) {
+        const auto found = std::ranges::find(arrays_, bytes);
+        if (found != arrays_.end()) return static_cast<std::uint32_t>(found - arrays_.begin());
+        arrays_.push_back(bytes);
+        return static_cast<std::uint32_t>(arrays_.size() - 1);
+    }
+    void write(ByteWriter& writer) const {
+        writer.value(static_cast<std::uint32_t>(arrays_.size()));
+        for (const auto& bytes : arrays_) writer.array(std::span<const std::byte>(*bytes));
+    }
+
+ private:
+    std::vector<std::shared_ptr<const Bytes>> arrays_;
+};
+
+Bytes write_payload(const Bytes& glb, const SceneTables& cooked, const std::vector<ImportedProbe>& probes) {
     ByteWriter writer;
     writer.array(std::span<const std::byte>(glb));
     writer.value(static_cast<std::uint32_t>(cooked.tables.size()));
@@ -160,6 +209,17 @@ Bytes write_payload(const Bytes& glb, const SceneTables& cooked) {
         writer.value(static_cast<std::uint32_t>(use.material));
         writer.text(use.extension);
         writer.value(static_cast<std::uint32_t>(use.table));
+    }
+    SharedArrays payloads;
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> of_probes;  // index of the probe, of its payload
+    for (std::size_t i = 0; i < probes.size(); ++i)
+        if (probes[i].cooked)
+            of_probes.emplace_back(static_cast<std::uint32_t>(i), payloads.index_of(probes[i].cooked));
+    payloads.write(writer);
+    writer.value(static_cast<std::uint32_t>(of_probes.size()));
+    for (const auto& [probe, payload] : of_probes) {
+        writer.value(probe);
+        writer.value(payload);
     }
     return writer.take();
 }
@@ -193,9 +253,13 @@ std::string describe_scene(const ImportedScene& scene, const std::string& file,
                            std::span<const cook::GltfExtension> extensions) {
     std::string text = fmt::format(
         "format: glTF 2.0\n{}nodes: {}\nmeshes: {}\nmaterials: {}\ntextures: {}\nskins: {}\nanimations: {}\n"
-        "lights: {}\n",
+        "lights: {}\nprobes: {}\n",
         describe_triangles(merge_instances(scene)), scene.nodes.size(), scene.meshes.size(), scene.materials.size(),
-        scene.textures.size(), scene.skins.size(), scene.animations.size(), scene.lights.size());
+        scene.textures.size(), scene.skins.size(), scene.animations.size(), scene.lights.size(), scene.probes.size());
+    for (const ImportedProbe& probe : scene.probes)
+        text += fmt::format("\nprobe: \"{}\"\nfile: {}\nsize: {} {} {}\nfade: {}\nbytes: {}\n",
+                            scene.nodes[probe.node].name, probe.uri, probe.size_m.x, probe.size_m.y, probe.size_m.z,
+                            probe.fade_m, probe.cooked ? probe.cooked->size() : 0);
     for_each_extension(
         scene, extensions, [&](std::size_t i, const cook::GltfExtension& extension, const nlohmann::json& object) {
             const std::string pointer = pointer_of(i, extension.name);
@@ -243,6 +307,14 @@ cook::AssetType mesh_type() {
     return type;
 }
 
+std::vector<std::shared_ptr<const Bytes>> read_arrays(ByteReader& reader) {
+    std::vector<std::shared_ptr<const Bytes>> arrays;
+    const auto count = reader.value<std::uint32_t>();
+    for (std::uint32_t i = 0; i < count; ++i)
+        arrays.push_back(std::make_shared<const Bytes>(reader.array<std::byte>()));
+    return arrays;
+}
+
 }  // namespace
 
 ImportedScene read_cooked_scene(std::span<const std::byte> payload, const std::string& file,
@@ -250,10 +322,7 @@ ImportedScene read_cooked_scene(std::span<const std::byte> payload, const std::s
     ByteReader reader(payload, file);
     const auto glb_size = reader.value<std::uint64_t>();
     ImportedScene scene = load_glb(reader.take(glb_size), file, handled_extensions);
-    std::vector<std::shared_ptr<const Bytes>> tables;
-    const auto count = reader.value<std::uint32_t>();
-    for (std::uint32_t i = 0; i < count; ++i)
-        tables.push_back(std::make_shared<const Bytes>(reader.array<std::byte>()));
+    const std::vector<std::shared_ptr<const Bytes>> tables = read_arrays(reader);
     const auto uses = reader.value<std::uint32_t>();
     for (std::uint32_t i = 0; i < uses; ++i) {
         const auto material = reader.value<std::uint32_t>();
@@ -263,6 +332,16 @@ ImportedScene read_cooked_scene(std::span<const std::byte> payload, const std::s
             reader.fail(fmt::format("table {} of material {}", table, material),
                         fmt::format("{} tables and {} materials", tables.size(), scene.materials.size()));
         scene.materials[material].tables[extension] = tables[table];
+    }
+    const std::vector<std::shared_ptr<const Bytes>> payloads = read_arrays(reader);
+    const auto probes = reader.value<std::uint32_t>();
+    for (std::uint32_t i = 0; i < probes; ++i) {
+        const auto probe = reader.value<std::uint32_t>();
+        const auto which = reader.value<std::uint32_t>();
+        if (probe >= scene.probes.size() || which >= payloads.size())
+            reader.fail(fmt::format("payload {} of probe {}", which, probe),
+                        fmt::format("{} payloads and {} probes", payloads.size(), scene.probes.size()));
+        scene.probes[probe].cooked = payloads[which];
     }
     if (reader.remaining() != 0) reader.fail(fmt::format("{} bytes too many", reader.remaining()), "the end");
     return scene;
@@ -281,11 +360,17 @@ void register_scene_type(cook::Registry& registry) {
         const std::string extension = lower_case(source.extension().string());
         return extension == ".gltf" || extension == ".glb";
     };
-    type.cook = [extensions, names](cook::Context& context) {
+    std::optional<cook::AssetType> probe;
+    if (const cook::AssetType* known = registry.find(kProbeAssetType)) {
+        probe = *known;
+        type.version += known->version;
+    }
+    type.cook = [extensions, names, probe](cook::Context& context) {
         GltfSource source = read_source(context);
-        const ImportedScene scene = import_source(context, source, extensions, names);
+        ImportedScene scene = import_source(context, source, extensions, names);
+        read_probes(context, source, probe ? &*probe : nullptr, scene);
         const Bytes glb = packed_glb(context, std::move(source));
-        return write_payload(glb, cook_tables(context, scene, extensions));
+        return write_payload(glb, cook_tables(context, scene, extensions), scene.probes);
     };
     type.check = [extensions, names](cook::Context& context) {
         merge_instances(import_source(context, read_source(context), extensions, names));

@@ -23,9 +23,10 @@ namespace {
 using Json = nlohmann::json;
 
 // Quantised attributes are ordinary accessors to us, so that extension needs nothing more.
-constexpr std::array<std::string_view, 8> kSupportedExtensions = {
+constexpr std::array<std::string_view, 9> kSupportedExtensions = {
     kDracoExtension,       kLightExtension,         "KHR_materials_clearcoat",  "KHR_materials_emissive_strength",
-    "KHR_materials_unlit", "KHR_mesh_quantization", kTextureTransformExtension, kWearExtension};
+    "KHR_materials_unlit", "KHR_mesh_quantization", kTextureTransformExtension, kWearExtension,
+    kProbeExtension};
 
 /// A member of a glTF object, and what its value must be.
 struct Member {
@@ -103,6 +104,9 @@ constexpr NumberRange kNotNegative{.minimum = 0.0, .maximum = std::numeric_limit
 // The sun has 1e5 lux; a light of more than a million suns is a mistake.
 constexpr NumberRange kIntensity{.minimum = 0.0, .maximum = 1e12};
 constexpr NumberRange kLightRange{.minimum = 0.0, .maximum = 1e12, .exclusive_minimum = true};
+// Of a probe's box, in metres.
+constexpr NumberRange kBoxSide{.minimum = 1e-3, .maximum = 1e6};
+constexpr NumberRange kFade{.minimum = 0.0, .maximum = 1e6};
 constexpr NumberRange kInnerCone{.minimum = 0.0, .maximum = std::numbers::pi / 2.0, .exclusive_maximum = true};
 // Exporters write π / 2 in digits that may round up.
 constexpr NumberRange kOuterCone{.minimum = 0.0, .maximum = std::numbers::pi / 2.0 + 1e-6, .exclusive_minimum = true};
@@ -198,7 +202,8 @@ constexpr std::array kLight = {text("name"),
 constexpr std::array kLights = {!objects("lights", kLight, sizeof(gltf::Light))};
 
 constexpr std::array kNodeLight = {!index("light", "/extensions/KHR_lights_punctual/lights")};
-constexpr std::array kNodeExtensions = {object(kLightExtension, kNodeLight)};
+constexpr std::array kNodeProbe = {!numbers("size_m", 3, kBoxSide), number("fade_m", kFade), !text("probe")};
+constexpr std::array kNodeExtensions = {object(kLightExtension, kNodeLight), object(kProbeExtension, kNodeProbe)};
 constexpr std::array kNode = {text("name"),
                               index("mesh", "/meshes"),
                               index("skin", "/skins"),

@@ -14,6 +14,7 @@ inline constexpr const char* kDracoExtension = "KHR_draco_mesh_compression";
 inline constexpr const char* kLightExtension = "KHR_lights_punctual";
 inline constexpr const char* kTextureTransformExtension = "KHR_texture_transform";
 inline constexpr const char* kWearExtension = "ROWLAND_materials_wear";
+inline constexpr const char* kProbeExtension = "ROWLAND_light_probe";
 
 /// Adds `text` unless it is already there.
 void warn_once(std::vector<std::string>& warnings, std::string text);

@@ -119,6 +119,14 @@ ImportedCamera camera_of(const gltf::Camera& from, std::size_t node) {
     return camera;
 }
 
+ImportedProbe probe_of(const gltf::Value& from, std::size_t node) {
+    ImportedProbe probe{.node = node, .uri = from.Get("probe").Get<std::string>()};
+    for (int i = 0; i < 3; ++i)
+        probe.size_m[i] = static_cast<float>(from.Get("size_m").Get(static_cast<std::size_t>(i)).GetNumberAsDouble());
+    if (from.Has("fade_m")) probe.fade_m = static_cast<float>(from.Get("fade_m").GetNumberAsDouble());
+    return probe;
+}
+
 /// A node to show, and the node of the scene that is its parent.
 struct PendingNode {
     int node = 0;
@@ -165,6 +173,8 @@ class NodeImport {
             scene_.lights.push_back({at, light_of(document_.model.lights[static_cast<std::size_t>(which)],
                                                   scene_.nodes.back().extras, document_, pointer)});
         }
+        if (const auto probe = node.extensions.find(kProbeExtension); probe != node.extensions.end())
+            scene_.probes.push_back(probe_of(probe->second, at));
         if (node.camera >= 0)
             if (const gltf::Camera& camera = document_.model.cameras[static_cast<std::size_t>(node.camera)];
                 camera.type == "perspective")

@@ -121,6 +121,16 @@ struct ImportedCamera {
     std::optional<float> far_plane;       ///< metres, > near_plane; none: at infinity
 };
 
+/// ROWLAND_light_probe: the light in a box about a node.
+struct ImportedProbe {
+    std::size_t node = 0;
+    glm::vec3 size_m{1.0F};  ///< of the box, along the node's axes and times its scale
+    float fade_m = 1.0F;     ///< beyond the box, over which other light takes its place
+    std::string uri;         ///< of the cooked probe, from the glTF's folder
+    /// The probe's payload, of cooked scenes only; equal probes are shared. Null: the file was not there.
+    std::shared_ptr<const std::vector<std::byte>> cooked = {};
+};
+
 /// How the tangents of a mesh were made.
 enum class TangentSource {
     File,      ///< they are the file's
@@ -149,6 +159,7 @@ struct ImportedScene {
     std::vector<ImportedSkin> skins;
     std::vector<Animation> animations;
     std::vector<ImportedLight> lights;
+    std::vector<ImportedProbe> probes;    ///< in the order of the nodes
     std::vector<ImportedCamera> cameras;  ///< one per node with a camera, in the order of the nodes
     std::vector<TangentSource> tangents;  ///< one per mesh
 };

@@ -80,12 +80,13 @@ class MetalType final : public render::MaterialType {
     bool owns(ecs::World& world, ecs::Entity entity) const override {
         return world.find<MetalSurface>(entity) != nullptr;
     }
-    gpu::ProgramDesc program(ecs::World& /*world*/, ecs::Entity /*entity*/) const override {
+    gpu::ProgramDesc program(ecs::World& /*world*/, ecs::Entity /*entity*/, render::ProbeSlot /*slot*/) const override {
         return {.vertex = "engine/render/shaders/plain.vert.glsl", .fragment = kFragmentFile};
     }
-    void update(ecs::World& /*world*/, const render::FrameLight& /*light*/,
-                std::span<const ecs::Entity> /*seen*/) override {}  // nothing to prepare
-    void bind(ecs::World& world, ecs::Entity entity, const gpu::Program& program) const override {
+    void update(ecs::World& /*world*/, std::span<const render::FrameLight> /*lights*/,
+                std::span<const render::LitEntity> /*seen*/) override {}  // nothing to prepare
+    void bind(ecs::World& world, ecs::Entity entity, render::ProbeSlot /*slot*/,
+              const gpu::Program& program) const override {
         const MetalSurface& surface = world.get<MetalSurface>(entity);
         program.set("n", surface.n);
         program.set("k", surface.k);

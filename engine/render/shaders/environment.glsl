@@ -172,6 +172,20 @@ vec3 with_object_reflection(vec3 beyond, vec3 direction, float roughness) {
 }
 #endif
 
+// Where the environment's light in a direction was captured from: where the ray leaves the probe's box, as the probe sees
+// it [Lagarde & Zanuttini 2012]. Outside the box the ray begins at the box's nearest point. Not a unit vector.
+vec3 captured_direction(vec3 direction) {
+#ifdef LOCAL_PROBE
+    vec3 along = mat3(world_to_box) * direction;
+    along = mix(along, vec3(1e-20), equal(along, vec3(0.0)));
+    vec3 from = clamp((world_to_box * vec4(world_position, 1.0)).xyz, -1.0, 1.0);
+    vec3 leaving = (sign(along) - from) / along;
+    return mat3(box_to_world) * (from + min(leaving.x, min(leaving.y, leaving.z)) * along);
+#else
+    return direction;
+#endif
+}
+
 // The environment's light as the scene near the surface hides and replaces it.
 vec3 with_surroundings(vec3 light, vec3 direction, float roughness) {
 #ifdef AMBIENT_OCCLUSION
@@ -190,7 +204,8 @@ vec3 with_surroundings(vec3 light, vec3 direction, float roughness) {
 }
 
 vec3 environment_light(vec3 direction, float roughness) {
-    vec3 light = textureLod(environment_map, direction, environment_level(roughness)).rgb * environment.y;
+    vec3 light =
+        textureLod(environment_map, captured_direction(direction), environment_level(roughness)).rgb * environment.y;
     return with_surroundings(light, normalize(direction), roughness);
 }
 
@@ -200,7 +215,7 @@ TEXTURE_UNIT(18) uniform samplerCube mirror_map;  // the environment with box-fi
 // What a mirror shows, averaged over the pixel: a curved one spreads the directions over many texels, and a lamp may be
 // one. Uses derivatives: call it in uniform control flow.
 vec3 mirrored_light(vec3 direction, vec3 n) {
-    return with_surroundings(texture(mirror_map, direction).rgb * environment.y, direction, 0.0);
+    return with_surroundings(texture(mirror_map, captured_direction(direction)).rgb * environment.y, direction, 0.0);
 }
 #else
 vec3 mirrored_light(vec3 direction, vec3 n) { return environment_light(direction, seen_roughness(0.0, n)); }

@@ -26,6 +26,8 @@ ROWLAND_BLOCK(0, FrameBlock) {
                              // key_irradiance_map
     vec4 shadow;             // x: width of a shadow texel, metres; y: of the map, 1 / texels; z: 1 if the target holds
                              // half floats; w: of soft shadows: engine/render/scene_lights.h
+    mat4 box_to_world;       // of the box about a local probe, between -1 and 1, with the probe in its middle
+    mat4 world_to_box;       // its inverse; both only under LOCAL_PROBE
     vec4 dome;               // x: height of the probe's camera above the floor y = 0, metres; y: radius; 0: none;
                              // zw: 1 / pixels of the picture
 };
@@ -39,6 +41,7 @@ ROWLAND_BLOCK(1, ObjectBlock) {
                               // roughness of the clear coat
     vec4 map_strength;        // x: normal scale; y: occlusion strength; z: sign of object_to_world's determinant;
                               // w: the object's first joint matrix
+    vec4 light_part;          // x: of the surface's light that this draw gives; under LOCAL_PROBE
     vec4 uv_linear[6];  // of each map (base colour, metallic-roughness, normal, occlusion, emissive, wear): the 2x2
                         // part of its texture transform, column after column
     vec4 uv_offset[6];  // xy
@@ -68,7 +71,7 @@ ROWLAND_BLOCK(3, ReflectionBlock) {
     vec4 plane_uv_offset;  // xy
 };
 #ifdef __cplusplus
-static_assert(sizeof(FrameBlock) == 5 * 64 + 13 * 16 && sizeof(ObjectBlock) == 2 * 64 + 16 * 16 &&
+static_assert(sizeof(FrameBlock) == 7 * 64 + 13 * 16 && sizeof(ObjectBlock) == 2 * 64 + 17 * 16 &&
                   sizeof(LightBlock) == 16 + 48 * ROWLAND_MAXIMUM_LIGHTS && sizeof(ReflectionBlock) == 64 + 7 * 16,
               "must equal the std140 layout");
 }  // namespace rowland::render

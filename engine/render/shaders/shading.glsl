@@ -278,6 +278,9 @@ void write_surface(MaterialTerms terms) {
 #else
     radiance = vec4(sum, 1.0);
 #endif
+#ifdef LOCAL_PROBE
+    radiance.rgb *= light_part.x;
+#endif
     if (shadow.z > 0.0) radiance = rounded_to_half(radiance);
 #ifdef ALPHA_MASK
     if (alpha < metallic_roughness.z) discard;  // last: derivatives are undefined after it

@@ -26,6 +26,23 @@ glm::dmat3 xyz_to_kernel(const CookedMaterial& cooked, const glm::dmat3& xyz_to_
     return std::holds_alternative<PitsLobe>(cooked.material.grating.lobe) ? glm::dmat3(1.0) : xyz_to_working;
 }
 
+/// What is kept for so many probes.
+constexpr std::size_t kKeptLobes = 16;
+
+/// The first that is `wanted`, moved to the front; else what `make` makes, in place of that which was not used for
+/// longest.
+template <typename Lobes, typename Wanted, typename Make>
+const Lobes& last_used(std::vector<Lobes>& kept, const Wanted& wanted, const Make& make) {
+    auto found = std::ranges::find_if(kept, wanted);
+    if (found == kept.end()) {
+        if (kept.size() == kKeptLobes) kept.pop_back();
+        kept.push_back(make());
+        found = kept.end() - 1;
+    }
+    std::rotate(kept.begin(), found, found + 1);
+    return kept.front();
+}
+
 }  // namespace
 
 GpuKernel::GpuKernel(std::shared_ptr<const CookedMaterial> cooked, const glm::dmat3& xyz_to_working)
@@ -94,10 +111,11 @@ void GpuKernel::set_lobe(const gpu::Program& program) const {
 
 void GpuKernel::bind(const gpu::Program& program, std::span<const lighting::KeyLight> key_lights,
                      std::span<const glm::vec3> light_colours) const {
-    if (program.has_uniform("lobe_scale_bias")) {
-        lobes_.set(blurred().kernel, key_lights);
-        lobes_.bind(program, blurred().uniforms, blurred().kernel.pitch_nm);
-    }
+    if (program.has_uniform("lobe_scale_bias") && !key_lights.empty())
+        last_used(
+            lobes_, [&](const GpuLobes& lobes) { return lobes.are_of(key_lights); },
+            [&] { return GpuLobes(blurred().kernel, key_lights); })
+            .bind(program, blurred().uniforms, blurred().kernel.pitch_nm);
     set_lobe(program);
     if (!program.has_uniform("kernel_scale_bias")) return;
     if (!smoothed_ || !std::ranges::equal(smoothed_->colours, light_colours)) smoothed_ = smooth(light_colours);
@@ -111,11 +129,8 @@ void GpuKernel::bind(const gpu::Program& program, std::span<const lighting::KeyL
     program.set("working_to_rec709", working_to_rec709_);
 }
 
-void GpuLobes::set(const BlurredKernel& kernel, std::span<const lighting::KeyLight> lights) {
-    if (lights.empty() || same_lobes(lights, lights_)) return;
-    lights_.assign(lights.begin(), lights.end());
-    begin_nm_ = kernel.begin_nm;
-    end_nm_ = kernel.end_nm;
+GpuLobes::GpuLobes(const BlurredKernel& kernel, std::span<const lighting::KeyLight> lights)
+    : lights_(lights.begin(), lights.end()), begin_nm_(kernel.begin_nm), end_nm_(kernel.end_nm) {
     const int columns = static_cast<int>(std::bit_floor(static_cast<unsigned>(kernel.columns)));
     std::vector<LobeTable> tables(lights_.size());
     parallel_for(lights_.size(), [&](std::size_t i) { tables[i] = make_lobe_table(kernel, lights_[i], columns); });
@@ -142,7 +157,6 @@ void GpuLobes::set(const BlurredKernel& kernel, std::span<const lighting::KeyLig
 }
 
 void GpuLobes::bind(const gpu::Program& program, const KernelUniforms& kernel, double pitch_nm) const {
-    if (lights_.empty() || !program.has_uniform("lobe_scale_bias")) return;
     texture_.bind(kLobeUnit);
     const double extent_nm = end_nm_ - begin_nm_;
     // Five deviations of the kernel's own smoothing.
@@ -202,23 +216,24 @@ void GpuPattern::upload_colours(std::span<const glm::vec3> light_colours) const 
                      [&](const glm::mat3& density) { return density * colours_[i] / largest_; });
 }
 
-void GpuPattern::upload_key_lights(std::span<const lighting::KeyLight> key_lights) const {
-    key_lights_.assign(key_lights.begin(), key_lights.end());
+GpuPattern::Lobes GpuPattern::lobes_of(std::span<const lighting::KeyLight> key_lights) const {
+    Lobes lobes{.lights{key_lights.begin(), key_lights.end()}, .texture = {}};
     const std::vector<LightPicture> pictures =
-        key_light_pictures(grating_, colour::LightSpectra(illuminant_), key_lights_, xyz_to_working_);
+        key_light_pictures(grating_, colour::LightSpectra(illuminant_), lobes.lights, xyz_to_working_);
     // Stored as fp16: each layer is divided by its light's flux, and all by the largest component.
     float largest = 1e-30F;
     for (std::size_t i = 0; i < pictures.size(); ++i)
         for (const LightPicture::Level& level : pictures[i].levels)
             for (const glm::vec3& density : level.density)
-                largest = std::max(largest, glm::compMax(glm::abs(density)) / largest_flux(key_lights_[i]));
+                largest = std::max(largest, glm::compMax(glm::abs(density)) / largest_flux(key_lights[i]));
     const LightPicture& first = pictures[0];
-    lobe_texture_.emplace(layered_texture(first.levels[0].size, pictures.size(), first.levels.size()));
+    lobes.texture = layered_texture(first.levels[0].size, pictures.size(), first.levels.size());
     for (std::size_t i = 0; i < pictures.size(); ++i)
-        upload_layer(*lobe_texture_, pictures[i], i,
-                     [&](const glm::vec3& density) { return density / (largest * largest_flux(key_lights_[i])); });
-    lobe_scale_ =
+        upload_layer(lobes.texture, pictures[i], i,
+                     [&](const glm::vec3& density) { return density / (largest * largest_flux(key_lights[i])); });
+    lobes.scale =
         glm::vec4(glm::dvec4(0.5 / first.half_width, first.texel_variance(), double{largest}, first.half_width));
+    return lobes;
 }
 
 void GpuPattern::bind(const gpu::Program& program, std::span<const lighting::KeyLight> key_lights,
@@ -232,9 +247,11 @@ void GpuPattern::bind(const gpu::Program& program, std::span<const lighting::Key
                     glm::vec4(glm::dvec4(0.5 / picture_->half_width, bias, double{largest_}, picture_->half_width)));
     }
     if (program.has_uniform("pattern_lobe_scale") && !key_lights.empty()) {
-        if (!same_lobes(key_lights_, key_lights)) upload_key_lights(key_lights);
-        lobe_texture_->bind(kLobeUnit);
-        program.set("pattern_lobe_scale", lobe_scale_);
+        const Lobes& lobes = last_used(
+            lobes_, [&](const Lobes& known) { return same_lobes(known.lights, key_lights); },
+            [&] { return lobes_of(key_lights); });
+        lobes.texture.bind(kLobeUnit);
+        program.set("pattern_lobe_scale", lobes.scale);
     }
 }
 

@@ -15,6 +15,7 @@
 #include "modules/diffraction/asset/material.h"
 #include "modules/diffraction/bake/diffraction_pattern.h"
 #include "modules/diffraction/bake/kernel_cells.h"
+#include "modules/diffraction/runtime/key_lobe.h"
 
 namespace rowland::diffraction {
 
@@ -22,8 +23,10 @@ namespace rowland::diffraction {
 /// shaders/key_light_tables.glsl. They do not depend on the lights' directions.
 class GpuLobes {
  public:
-    /// Rebuilds the layers if the lights' fluxes or concentrations changed.
-    void set(const BlurredKernel& kernel, std::span<const lighting::KeyLight> lights);
+    /// At least one light.
+    GpuLobes(const BlurredKernel& kernel, std::span<const lighting::KeyLight> lights);
+    /// Whether they are those of these lights, which may have turned.
+    bool are_of(std::span<const lighting::KeyLight> lights) const { return same_lobes(lights, lights_); }
     void bind(const gpu::Program& program, const KernelUniforms& kernel, double pitch_nm) const;
 
  private:
@@ -66,7 +69,7 @@ class GpuKernel {
     glm::mat3 working_to_rec709_;
     mutable std::optional<Blurred> blurred_;
     mutable std::optional<Smoothed> smoothed_;
-    mutable GpuLobes lobes_;
+    mutable std::vector<GpuLobes> lobes_;  ///< of several probes, the last used first
 };
 
 /// A lattice's diffraction pattern for analytic lights and key lights: shaders/pattern.glsl.
@@ -81,8 +84,14 @@ class GpuPattern {
               std::span<const glm::vec3> light_colours) const;
 
  private:
+    struct Lobes {
+        std::vector<lighting::KeyLight> lights;
+        gpu::Texture texture;  ///< a layer for each
+        glm::vec4 scale{0.0F};
+    };
+
     void upload_colours(std::span<const glm::vec3> light_colours) const;
-    void upload_key_lights(std::span<const lighting::KeyLight> key_lights) const;
+    Lobes lobes_of(std::span<const lighting::KeyLight> key_lights) const;
 
     Grating grating_;
     colour::Illuminant illuminant_;
@@ -91,9 +100,7 @@ class GpuPattern {
     mutable float largest_ = 1.0F;
     mutable std::optional<gpu::Texture> texture_;
     mutable std::vector<glm::vec3> colours_;  ///< of its layers
-    mutable std::optional<gpu::Texture> lobe_texture_;
-    mutable std::vector<lighting::KeyLight> key_lights_;  ///< of its layers
-    mutable glm::vec4 lobe_scale_{0.0F};
+    mutable std::vector<Lobes> lobes_;        ///< of several probes, the last used first
 };
 
 }  // namespace rowland::diffraction

@@ -22,7 +22,10 @@ namespace {
 void take_surface(const DiffractionSurface& surface, const std::shared_ptr<const scene::Mesh>& mesh, bool skinned,
                   SurfaceState& state) {
     if (state.material != surface.material) {
-        state = {};
+        SurfaceState made;
+        made.probe = state.probe;
+        made.second = std::move(state.second);
+        state = std::move(made);
         state.material = surface.material;
         if (surface.material->reflected()) state.reflected = std::make_unique<SurfaceState>();
     }
@@ -42,6 +45,7 @@ void take_surface(const DiffractionSurface& surface, const std::shared_ptr<const
     if (state.reflected)
         take_surface({surface.material->reflected(), surface.groove_rotation, surface.grooves}, mesh, skinned,
                      *state.reflected);
+    if (state.second) take_surface(surface, mesh, skinned, *state.second);
 }
 
 /// The same surface seen from its other side.
@@ -62,12 +66,40 @@ void update_lit_side(const GpuMaterial& material, const SurfaceObject& object, S
                      .groove_rotation = object.groove_rotation,
                      .skinned = object.skinned,
                      .changed = object.changed,
-                     .maps = object.maps},
+                     .maps = object.maps,
+                     .may_wait = object.may_wait},
                     light, state);
 }
 
 bool is_filling(const SurfaceState& state) {
-    return state.map.is_filling() || (state.reflected && state.reflected->map.is_filling());
+    return state.map.is_filling() || (state.reflected && state.reflected->map.is_filling()) ||
+           (state.second && is_filling(*state.second));
+}
+
+SurfaceState& state_of(ecs::World& world, ecs::Entity entity, render::ProbeSlot slot) {
+    auto& state = world.get<SurfaceState>(entity);
+    // One that is not seen has no second yet.
+    return slot == render::ProbeSlot::Second && state.second ? *state.second : state;
+}
+
+/// Gives each slot the data that the object has for its probe, though the other slot had it.
+void take_probes(const render::LightMix& mix, SurfaceState& state) {
+    if (state.second && state.second->probe == mix.first && state.probe != mix.first) {
+        auto second = std::move(state.second);
+        std::swap(state, *second);
+        state.second = std::move(second);
+    } else if (!state.second && mix.has_second() && mix.second == state.probe) {
+        auto second = std::make_unique<SurfaceState>();
+        std::swap(state, *second);
+        state.second = std::move(second);
+    }
+    state.probe = mix.first;
+    if (!mix.has_second()) {
+        state.second.reset();
+    } else {
+        if (!state.second) state.second = std::make_unique<SurfaceState>();
+        state.second->probe = mix.second;
+    }
 }
 
 }  // namespace
@@ -82,7 +114,7 @@ void add_surface(ecs::World& world, ecs::Entity entity, DiffractionSurface surfa
 }
 
 DiffractionSurfaceType::DiffractionSurfaceType(const glm::dmat3& xyz_to_working, const DiffractionSettings& settings)
-    : xyz_to_working_(xyz_to_working), light_(settings.window), maps_(settings.map_pace, settings.map_wait) {}
+    : xyz_to_working_(xyz_to_working), window_(settings.window), maps_(settings.map_pace, settings.map_wait) {}
 
 std::string DiffractionSurfaceType::gltf_extension() const {
     return kGltfExtension;
@@ -128,8 +160,8 @@ bool DiffractionSurfaceType::owns(ecs::World& world, ecs::Entity entity) const {
     return world.find<DiffractionSurface>(entity) != nullptr;
 }
 
-gpu::ProgramDesc DiffractionSurfaceType::program(ecs::World& world, ecs::Entity entity) const {
-    return world.get<DiffractionSurface>(entity).material->program(world.get<SurfaceState>(entity));
+gpu::ProgramDesc DiffractionSurfaceType::program(ecs::World& world, ecs::Entity entity, render::ProbeSlot slot) const {
+    return world.get<DiffractionSurface>(entity).material->program(state_of(world, entity, slot));
 }
 
 void DiffractionSurfaceType::warn_illuminant_mismatch(const std::string& baked_for, const std::string& lit_by) {
@@ -138,9 +170,10 @@ void DiffractionSurfaceType::warn_illuminant_mismatch(const std::string& baked_f
                 baked_for);
 }
 
-std::vector<gpu::ProgramDesc> DiffractionSurfaceType::later_programs(ecs::World& world, ecs::Entity entity) const {
+std::vector<gpu::ProgramDesc> DiffractionSurfaceType::later_programs(ecs::World& world, ecs::Entity entity,
+                                                                     render::ProbeSlot slot) const {
     std::vector<gpu::ProgramDesc> programs;
-    auto& state = world.get<SurfaceState>(entity);
+    SurfaceState& state = state_of(world, entity, slot);
     for (SurfaceState* side : {&state, state.reflected.get()}) {
         if (side == nullptr || !side->without_map || !side->map.is_filling()) continue;
         side->without_map = false;
@@ -150,38 +183,56 @@ std::vector<gpu::ProgramDesc> DiffractionSurfaceType::later_programs(ecs::World&
     return programs;
 }
 
-void DiffractionSurfaceType::update(ecs::World& world, const render::FrameLight& light,
-                                    std::span<const ecs::Entity> seen) {
+void DiffractionSurfaceType::update(ecs::World& world, std::span<const render::FrameLight> lights,
+                                    std::span<const render::LitEntity> seen) {
     maps_.begin_frame();
     if (world.view<DiffractionSurface>().count() == 0) return;
-    light_.set(light);
+    while (lights_.size() < lights.size()) lights_.push_back(std::make_unique<SurfaceLight>(window_));
+    lights_.resize(lights.size());
+    for (std::size_t i = 0; i < lights.size(); ++i) lights_[i]->set(lights[i]);
     world.view<DiffractionSurface, render::MeshInstance>().each(
         [&](ecs::Entity entity, const DiffractionSurface& surface, const render::MeshInstance& instance) {
             if (world.find<SurfaceState>(entity) == nullptr) world.add(entity, SurfaceState{});
             auto& state = world.get<SurfaceState>(entity);
             state.seen = false;
             take_surface(surface, instance.mesh, world.find<scene::Skin>(entity) != nullptr, state);
-            warn_illuminant_mismatch(surface.material->illuminant(), light_.illuminant());
         });
-    for (const ecs::Entity entity : seen)
-        if (owns(world, entity)) update_seen(world, entity, world.get<SurfaceState>(entity));
+    for (const render::LitEntity& lit : seen)
+        if (owns(world, lit.entity)) update_seen(world, lit);
 }
 
-void DiffractionSurfaceType::update_seen(ecs::World& world, ecs::Entity entity, SurfaceState& state) {
-    const glm::mat4& matrix = world.get<scene::WorldMatrix>(entity).matrix;
+void DiffractionSurfaceType::update_seen(ecs::World& world, const render::LitEntity& lit) {
+    const auto& surface = world.get<DiffractionSurface>(lit.entity);
+    auto& state = world.get<SurfaceState>(lit.entity);
+    take_probes(lit.light, state);
+    take_surface(surface, world.get<render::MeshInstance>(lit.entity).mesh,
+                 world.find<scene::Skin>(lit.entity) != nullptr, state);
     state.seen = true;
-    state.changed = state.changed || state.orientation != glm::mat3(matrix) || state.light_version != light_.version();
+    for (SurfaceState* slot : {&state, state.second.get()}) {
+        if (slot == nullptr) continue;
+        SurfaceLight& light = *lights_[slot->probe];
+        warn_illuminant_mismatch(surface.material->illuminant(), light.illuminant());
+        const float part = slot == &state ? 1.0F - lit.light.second_part : lit.light.second_part;
+        update_lit(world, lit.entity, light, *slot, part >= 0.5F);
+    }
+}
+
+void DiffractionSurfaceType::update_lit(ecs::World& world, ecs::Entity entity, SurfaceLight& light, SurfaceState& state,
+                                        bool may_wait) {
+    const glm::mat4& matrix = world.get<scene::WorldMatrix>(entity).matrix;
+    state.changed = state.changed || state.orientation != glm::mat3(matrix) || state.light_version != light.version();
     state.orientation = glm::mat3(matrix);
-    state.light_version = light_.version();
+    state.light_version = light.version();
     const auto update_sides = [&](const scene::Mesh& mesh, bool skinned) {
         const SurfaceObject object{.mesh = mesh,
                                    .object_to_world = matrix,
                                    .groove_rotation = static_cast<double>(state.groove_rotation),
                                    .skinned = skinned,
                                    .changed = state.changed || skinned,
-                                   .maps = maps_};
-        update_lit_side(*state.material, object, light_, state);
-        if (state.reflected) state.reflected->material->update(object, light_, *state.reflected);
+                                   .maps = maps_,
+                                   .may_wait = may_wait};
+        update_lit_side(*state.material, object, light, state);
+        if (state.reflected) state.reflected->material->update(object, light, *state.reflected);
     };
     if (const scene::Skin* skin = world.find<scene::Skin>(entity))
         update_sides(scene::posed(*state.mesh, scene::joint_matrices(world, *skin)), true);
@@ -197,19 +248,23 @@ bool maps_are_filling(ecs::World& world) {
     return filling;
 }
 
-std::optional<gpu::ProgramDesc> DiffractionSurfaceType::overlay_program(ecs::World& world, ecs::Entity entity) const {
-    const SurfaceState& state = world.get<SurfaceState>(entity);
+std::optional<gpu::ProgramDesc> DiffractionSurfaceType::overlay_program(ecs::World& world, ecs::Entity entity,
+                                                                        render::ProbeSlot slot) const {
+    const SurfaceState& state = state_of(world, entity, slot);
     if (!state.reflected) return std::nullopt;
     return state.reflected->material->program(*state.reflected);
 }
 
-void DiffractionSurfaceType::bind_overlay(ecs::World& world, ecs::Entity entity, const gpu::Program& program) const {
-    const SurfaceState& reflected = *world.get<SurfaceState>(entity).reflected;
-    reflected.material->bind(program, light_, reflected);
+void DiffractionSurfaceType::bind_overlay(ecs::World& world, ecs::Entity entity, render::ProbeSlot slot,
+                                          const gpu::Program& program) const {
+    const SurfaceState& state = state_of(world, entity, slot);
+    state.reflected->material->bind(program, light_of(state), *state.reflected);
 }
 
-void DiffractionSurfaceType::bind(ecs::World& world, ecs::Entity entity, const gpu::Program& program) const {
-    world.get<DiffractionSurface>(entity).material->bind(program, light_, world.get<SurfaceState>(entity));
+void DiffractionSurfaceType::bind(ecs::World& world, ecs::Entity entity, render::ProbeSlot slot,
+                                  const gpu::Program& program) const {
+    const SurfaceState& state = state_of(world, entity, slot);
+    state.material->bind(program, light_of(state), state);
 }
 
 }  // namespace rowland::diffraction

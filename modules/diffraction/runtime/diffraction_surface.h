@@ -56,16 +56,25 @@ class DiffractionSurfaceType final : public render::MaterialType {
 
     void add_shaders(gpu::ShaderLibrary& library) const override;
     bool owns(ecs::World& world, ecs::Entity entity) const override;
-    gpu::ProgramDesc program(ecs::World& world, ecs::Entity entity) const override;
-    std::vector<gpu::ProgramDesc> later_programs(ecs::World& world, ecs::Entity entity) const override;
-    void update(ecs::World& world, const render::FrameLight& light, std::span<const ecs::Entity> seen) override;
+    gpu::ProgramDesc program(ecs::World& world, ecs::Entity entity, render::ProbeSlot slot) const override;
+    std::vector<gpu::ProgramDesc> later_programs(ecs::World& world, ecs::Entity entity,
+                                                 render::ProbeSlot slot) const override;
+    void update(ecs::World& world, std::span<const render::FrameLight> lights,
+                std::span<const render::LitEntity> seen) override;
     std::uint64_t version() const override { return version_; }
-    void bind(ecs::World& world, ecs::Entity entity, const gpu::Program& program) const override;
-    std::optional<gpu::ProgramDesc> overlay_program(ecs::World& world, ecs::Entity entity) const override;
-    void bind_overlay(ecs::World& world, ecs::Entity entity, const gpu::Program& program) const override;
+    void bind(ecs::World& world, ecs::Entity entity, render::ProbeSlot slot,
+              const gpu::Program& program) const override;
+    std::optional<gpu::ProgramDesc> overlay_program(ecs::World& world, ecs::Entity entity,
+                                                    render::ProbeSlot slot) const override;
+    void bind_overlay(ecs::World& world, ecs::Entity entity, render::ProbeSlot slot,
+                      const gpu::Program& program) const override;
 
  private:
-    void update_seen(ecs::World& world, ecs::Entity entity, SurfaceState& state);
+    void update_seen(ecs::World& world, const render::LitEntity& lit);
+    /// Under one of its probes.
+    void update_lit(ecs::World& world, ecs::Entity entity, SurfaceLight& light, SurfaceState& state, bool may_wait);
+    /// Of the probe that lights it in a slot.
+    const SurfaceLight& light_of(const SurfaceState& state) const { return *lights_[state.probe]; }
     void warn_illuminant_mismatch(const std::string& baked_for, const std::string& lit_by);
     /// One for all objects with the same texture and the same object of it.
     std::shared_ptr<const GrooveMap> groove_map(const GrooveTexture& use, const render::MaterialExtension& extension,
@@ -76,7 +85,8 @@ class DiffractionSurfaceType final : public render::MaterialType {
     std::map<std::string, std::weak_ptr<const GpuMaterial>> uploaded_;  ///< by the hash of the tables
     std::map<std::pair<const image::ByteImage*, std::string>, std::weak_ptr<const GrooveMap>> groove_maps_;
     std::set<std::pair<std::string, std::string>> warned_pairs_;  ///< illuminants baked for, lit by
-    SurfaceLight light_;
+    std::optional<math::SphericalWindow> window_;
+    std::vector<std::unique_ptr<SurfaceLight>> lights_;  ///< by index of the frame's lights
     MapCache maps_;
     std::uint64_t version_ = 0;
 };

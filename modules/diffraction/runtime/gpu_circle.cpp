@@ -91,7 +91,7 @@ GpuCircle::GpuCircle(std::shared_ptr<const CookedMaterial> cooked, const CircleT
       fill_(std::make_shared<const FillMap>(Filling{working_material(), tables.size})) {}
 
 void GpuCircle::update(const SurfaceObject& object, SurfaceLight& light, SurfaceState& state) const {
-    state.map.update(fill_, {.texels = samples(light)}, object.maps);
+    state.map.update(fill_, {.texels = samples(light)}, object.maps, object.may_wait);
     state.without_map = !state.map.shown();
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <glm/mat3x3.hpp>
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
@@ -32,6 +33,7 @@ struct SurfaceState {
     glm::mat3 orientation{0.0F};
     float groove_rotation = 0.0F;
     std::shared_ptr<const GrooveMap> grooves;
+    std::size_t probe = 0;                               ///< index of the frame's light
     std::shared_ptr<const std::uint64_t> light_version;  ///< SurfaceLight::version()
     bool changed = true;                                 ///< since it was last updated
     bool seen = false;                                   ///< in the last frame
@@ -45,6 +47,7 @@ struct SurfaceState {
     ObjectMap map;
     bool without_map = false;                 ///< drawn without one: it is not filled yet, or there can be none
     std::unique_ptr<SurfaceState> reflected;  ///< of GpuMaterial::reflected(), or null
+    std::unique_ptr<SurfaceState> second;     ///< under the second probe, or null
 };
 
 /// An object with a grating in this frame.
@@ -55,6 +58,7 @@ struct SurfaceObject {
     bool skinned = false;
     bool changed = true;  ///< since the last frame: light, orientation, mesh, rotation or material
     MapCache& maps;
+    bool may_wait = true;  ///< the frame, for a first map
 };
 
 /// A cooked material on the GPU. One class per representation implements it.

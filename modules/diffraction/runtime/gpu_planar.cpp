@@ -137,7 +137,7 @@ MapInput GpuPlanar::map_input(const SurfaceObject& object, const SurfaceLight& l
 
 void GpuPlanar::update(const SurfaceObject& object, SurfaceLight& light, SurfaceState& state) const {
     if (state.flat && samples(light))
-        state.map.update(fill_, map_input(object, light, state), object.maps);
+        state.map.update(fill_, map_input(object, light, state), object.maps, object.may_wait);
     else
         state.map = {};
     const bool was_without = std::exchange(state.without_map, !state.map.shown());

@@ -73,7 +73,7 @@ GpuStreak::GpuStreak(std::shared_ptr<const CookedMaterial> cooked, const StreakT
 
 void GpuStreak::update(const SurfaceObject& object, SurfaceLight& light, SurfaceState& state) const {
     if (incoherent_) incoherent_->update(object, light, state);
-    state.map.update(fill_, {.texels = light.probe_samples(0)}, object.maps);
+    state.map.update(fill_, {.texels = light.probe_samples(0)}, object.maps, object.may_wait);
     state.without_map = !state.map.shown();
 }
 

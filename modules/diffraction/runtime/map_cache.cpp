@@ -170,7 +170,8 @@ void MapCache::begin_frame() {
     ++frame_;
 }
 
-void ObjectMap::update(const std::shared_ptr<const FillMap>& fill, const MapInput& input, MapCache& cache) {
+void ObjectMap::update(const std::shared_ptr<const FillMap>& fill, const MapInput& input, MapCache& cache,
+                       bool may_wait) {
     const bool of_light = wanted_ && wanted_->fill == fill && wanted_->input.texels == input.texels;
     // An object that turns in every frame would never get a map if each frame began another one.
     const bool may_change = !of_light || wanted_->shown || cache.pace() == MapPace::Whole;
@@ -178,7 +179,7 @@ void ObjectMap::update(const std::shared_ptr<const FillMap>& fill, const MapInpu
     if (of_light && wanted_->shown) shown_ = wanted_;
     if (shown_ && (shown_->fill != fill || shown_->input.texels != input.texels)) shown_.reset();
     if (changed) wanted_ = cache.find(fill, input);
-    cache.use(*wanted_, changed && !shown_);
+    cache.use(*wanted_, may_wait && changed && !shown_);
     if (wanted_->shown) shown_ = wanted_;
 }
 

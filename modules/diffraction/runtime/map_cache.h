@@ -137,8 +137,9 @@ class MapCache {
 /// object that turns in every frame has coarse maps.
 class ObjectMap {
  public:
-    /// Call in each frame in which the object is seen. Throws Error (system) if a map cannot be filled.
-    void update(const std::shared_ptr<const FillMap>& fill, const MapInput& input, MapCache& cache);
+    /// Call in each frame in which the object is seen. `may_wait`: the frame, for the first map. Throws Error (system)
+    /// if a map cannot be filled.
+    void update(const std::shared_ptr<const FillMap>& fill, const MapInput& input, MapCache& cache, bool may_wait);
 
     /// Null: there is none under this light.
     const std::shared_ptr<SharedMap>& shown() const { return shown_; }

@@ -196,7 +196,7 @@ bool FilmSurfaceType::owns(ecs::World& world, ecs::Entity entity) const {
     return world.find<FilmSurface>(entity) != nullptr;
 }
 
-gpu::ProgramDesc FilmSurfaceType::program(ecs::World& world, ecs::Entity entity) const {
+gpu::ProgramDesc FilmSurfaceType::program(ecs::World& world, ecs::Entity entity, render::ProbeSlot /*slot*/) const {
     const FilmSurface& surface = world.get<FilmSurface>(entity);
     gpu::ProgramDesc desc{.vertex = "engine/render/shaders/plain.vert.glsl",
                           .fragment = "modules/thin_film/shaders/film.frag.glsl",
@@ -211,19 +211,20 @@ gpu::ProgramDesc FilmSurfaceType::program(ecs::World& world, ecs::Entity entity)
     return desc;
 }
 
-void FilmSurfaceType::update(ecs::World& world, const render::FrameLight& light,
-                             std::span<const ecs::Entity> /*seen*/) {
-    if (!light.probe) return;
-    const std::string& lit_by = light.probe->illuminant.name;
-    world.view<FilmSurface>().each([&](ecs::Entity, const FilmSurface& surface) {
-        const std::string& baked_for = surface.film->illuminant();
-        if (baked_for == lit_by || !warned_pairs_.insert(baked_for + " " + lit_by).second) return;
+void FilmSurfaceType::update(ecs::World& world, std::span<const render::FrameLight> lights,
+                             std::span<const render::LitEntity> seen) {
+    for (const render::LitEntity& lit : seen) {
+        if (!owns(world, lit.entity)) continue;
+        const std::string& baked_for = world.get<FilmSurface>(lit.entity).film->illuminant();
+        const std::string& lit_by = lights[lit.light.first].probe->illuminant.name;
+        if (baked_for == lit_by || !warned_pairs_.insert(baked_for + " " + lit_by).second) continue;
         log_warning("a film baked for the illuminant {} is lit by {}: it shows the colours of {}", baked_for, lit_by,
                     baked_for);
-    });
+    }
 }
 
-void FilmSurfaceType::bind(ecs::World& world, ecs::Entity entity, const gpu::Program& program) const {
+void FilmSurfaceType::bind(ecs::World& world, ecs::Entity entity, render::ProbeSlot /*slot*/,
+                           const gpu::Program& program) const {
     const FilmSurface& surface = world.get<FilmSurface>(entity);
     surface.film->bind(program);
     program.set("film_factor", surface.factor);

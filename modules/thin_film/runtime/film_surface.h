@@ -79,9 +79,11 @@ class FilmSurfaceType final : public render::MaterialType {
 
     void add_shaders(gpu::ShaderLibrary& library) const override;
     bool owns(ecs::World& world, ecs::Entity entity) const override;
-    gpu::ProgramDesc program(ecs::World& world, ecs::Entity entity) const override;
-    void update(ecs::World& world, const render::FrameLight& light, std::span<const ecs::Entity> seen) override;
-    void bind(ecs::World& world, ecs::Entity entity, const gpu::Program& program) const override;
+    gpu::ProgramDesc program(ecs::World& world, ecs::Entity entity, render::ProbeSlot slot) const override;
+    void update(ecs::World& world, std::span<const render::FrameLight> lights,
+                std::span<const render::LitEntity> seen) override;
+    void bind(ecs::World& world, ecs::Entity entity, render::ProbeSlot slot,
+              const gpu::Program& program) const override;
 
  private:
     std::shared_ptr<const GpuFilm> uploaded(const std::vector<std::byte>& tables, const GltfIridescence& extension,

@@ -122,7 +122,7 @@ void expect_in_openGL(const PipelineState& state) {
     }
     EXPECT_EQ(value_of(GL_FRONT_FACE), state.front == gpu::FrontFace::Clockwise ? GL_CW : GL_CCW);
     EXPECT_EQ(glIsEnabled(GL_BLEND) == GL_TRUE, state.blend != gpu::Blend::Off);
-    constexpr std::array sources{GL_ONE, GL_ONE, GL_SRC_ALPHA, GL_ONE, GL_ONE};
+    constexpr std::array sources{GL_ONE, GL_ONE, GL_SRC_ALPHA, GL_SRC_ALPHA, GL_ONE, GL_ONE};
     if (state.blend != gpu::Blend::Off) {
         EXPECT_EQ(value_of(GL_BLEND_SRC_RGB), sources.at(static_cast<std::size_t>(state.blend)));
     }
@@ -147,7 +147,7 @@ TEST_F(BoundStateTest, AnyOrderOfStatesLeavesTheLastInOpenGL) {
         PipelineState state{.depth_test = static_cast<gpu::DepthTest>(pick(4)),
                             .depth_write = pick(2) == 1,
                             .cull = static_cast<gpu::Cull>(pick(3)),
-                            .blend = static_cast<gpu::Blend>(pick(5)),
+                            .blend = static_cast<gpu::Blend>(pick(6)),
                             .front = static_cast<gpu::FrontFace>(pick(2)),
                             .slope_bias = static_cast<float>(pick(3))};
         if (pick(2) == 1) state.scissor = gpu::Scissor{.x = pick(3), .y = pick(3), .width = 1 + pick(2), .height = 1};

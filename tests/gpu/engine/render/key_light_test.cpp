@@ -175,11 +175,15 @@ class KeyListener final : public MaterialType {
     std::string name() const override { return "listener"; }
     void add_shaders(gpu::ShaderLibrary& /*library*/) const override {}
     bool owns(ecs::World& /*world*/, ecs::Entity /*entity*/) const override { return false; }
-    gpu::ProgramDesc program(ecs::World& /*world*/, ecs::Entity /*entity*/) const override { return {}; }
-    void update(ecs::World& /*world*/, const FrameLight& light, std::span<const ecs::Entity> /*seen*/) override {
-        *light_ = light;
+    gpu::ProgramDesc program(ecs::World& /*world*/, ecs::Entity /*entity*/, ProbeSlot /*slot*/) const override {
+        return {};
     }
-    void bind(ecs::World& /*world*/, ecs::Entity /*entity*/, const gpu::Program& /*program*/) const override {}
+    void update(ecs::World& /*world*/, std::span<const FrameLight> lights,
+                std::span<const LitEntity> /*seen*/) override {
+        *light_ = lights[0];
+    }
+    void bind(ecs::World& /*world*/, ecs::Entity /*entity*/, ProbeSlot /*slot*/,
+              const gpu::Program& /*program*/) const override {}
 
  private:
     FrameLight* light_;

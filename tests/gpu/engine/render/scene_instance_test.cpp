@@ -33,9 +33,13 @@ class MarkType final : public MaterialType {
     }
     void add_shaders(gpu::ShaderLibrary& /*library*/) const override {}
     bool owns(ecs::World& /*world*/, ecs::Entity /*entity*/) const override { return false; }
-    gpu::ProgramDesc program(ecs::World& /*world*/, ecs::Entity /*entity*/) const override { return {}; }
-    void update(ecs::World& /*world*/, const FrameLight& /*light*/, std::span<const ecs::Entity> /*seen*/) override {}
-    void bind(ecs::World& /*world*/, ecs::Entity /*entity*/, const gpu::Program& /*program*/) const override {}
+    gpu::ProgramDesc program(ecs::World& /*world*/, ecs::Entity /*entity*/, ProbeSlot /*slot*/) const override {
+        return {};
+    }
+    void update(ecs::World& /*world*/, std::span<const FrameLight> /*lights*/,
+                std::span<const LitEntity> /*seen*/) override {}
+    void bind(ecs::World& /*world*/, ecs::Entity /*entity*/, ProbeSlot /*slot*/,
+              const gpu::Program& /*program*/) const override {}
 };
 
 class SceneInstanceTest : public test::RenderTest {

@@ -28,11 +28,13 @@ class HookType final : public MaterialType {
     bool owns(ecs::World& world, ecs::Entity entity) const override {
         return world.find<StandardMaterial>(entity) != nullptr;
     }
-    gpu::ProgramDesc program(ecs::World& /*world*/, ecs::Entity /*entity*/) const override {
+    gpu::ProgramDesc program(ecs::World& /*world*/, ecs::Entity /*entity*/, ProbeSlot /*slot*/) const override {
         return {.vertex = "engine/render/shaders/plain.vert.glsl", .fragment = name_ + ".frag.glsl"};
     }
-    void update(ecs::World& /*world*/, const FrameLight& /*light*/, std::span<const ecs::Entity> /*seen*/) override {}
-    void bind(ecs::World& /*world*/, ecs::Entity /*entity*/, const gpu::Program& /*program*/) const override {}
+    void update(ecs::World& /*world*/, std::span<const FrameLight> /*lights*/,
+                std::span<const LitEntity> /*seen*/) override {}
+    void bind(ecs::World& /*world*/, ecs::Entity /*entity*/, ProbeSlot /*slot*/,
+              const gpu::Program& /*program*/) const override {}
 
  private:
     std::string name_;

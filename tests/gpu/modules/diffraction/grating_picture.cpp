@@ -98,25 +98,30 @@ class UnderLight final : public render::MaterialType {
     std::string name() const override { return "diffraction"; }
     void add_shaders(gpu::ShaderLibrary& library) const override { inner_.add_shaders(library); }
     bool owns(ecs::World& world, ecs::Entity entity) const override { return inner_.owns(world, entity); }
-    gpu::ProgramDesc program(ecs::World& world, ecs::Entity entity) const override {
-        return inner_.program(world, entity);
+    gpu::ProgramDesc program(ecs::World& world, ecs::Entity entity, render::ProbeSlot slot) const override {
+        return inner_.program(world, entity, slot);
     }
-    std::vector<gpu::ProgramDesc> later_programs(ecs::World& world, ecs::Entity entity) const override {
-        return inner_.later_programs(world, entity);
+    std::vector<gpu::ProgramDesc> later_programs(ecs::World& world, ecs::Entity entity,
+                                                 render::ProbeSlot slot) const override {
+        return inner_.later_programs(world, entity, slot);
     }
-    void update(ecs::World& world, const render::FrameLight& frame, std::span<const ecs::Entity> seen) override {
+    void update(ecs::World& world, std::span<const render::FrameLight> frame,
+                std::span<const render::LitEntity> seen) override {
         render::FrameLight light = light_->frame();
-        light.light_strengths = frame.light_strengths;  // of the world's own lights
-        inner_.update(world, light, seen);
+        light.light_strengths = frame[0].light_strengths;  // of the world's own lights
+        inner_.update(world, std::span(&light, 1), seen);
     }
-    void bind(ecs::World& world, ecs::Entity entity, const gpu::Program& program) const override {
-        inner_.bind(world, entity, program);
+    void bind(ecs::World& world, ecs::Entity entity, render::ProbeSlot slot,
+              const gpu::Program& program) const override {
+        inner_.bind(world, entity, slot, program);
     }
-    std::optional<gpu::ProgramDesc> overlay_program(ecs::World& world, ecs::Entity entity) const override {
-        return inner_.overlay_program(world, entity);
+    std::optional<gpu::ProgramDesc> overlay_program(ecs::World& world, ecs::Entity entity,
+                                                    render::ProbeSlot slot) const override {
+        return inner_.overlay_program(world, entity, slot);
     }
-    void bind_overlay(ecs::World& world, ecs::Entity entity, const gpu::Program& program) const override {
-        inner_.bind_overlay(world, entity, program);
+    void bind_overlay(ecs::World& world, ecs::Entity entity, render::ProbeSlot slot,
+                      const gpu::Program& program) const override {
+        inner_.bind_overlay(world, entity, slot, program);
     }
 
  private:

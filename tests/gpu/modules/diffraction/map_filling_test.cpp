@@ -26,7 +26,7 @@ class MapFillingTest : public rowland::test::GlTest {
         add(object_, normal);
     }
     void add(ObjectMap& object, double normal) {
-        object.update(fill_, {.texels = texels_, .normal = {normal, 0.0, 0.0}}, *cache_);
+        object.update(fill_, {.texels = texels_, .normal = {normal, 0.0, 0.0}}, *cache_, true);
     }
     void update_until_complete(double normal) {
         for (update(normal); object_.is_filling();) update(normal);

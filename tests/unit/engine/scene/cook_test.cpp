@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include "engine/asset/container.h"
 #include "engine/core/json_reader.h"
 #include "engine/scene/gltf_import.h"
 #include "tests/support/expect.h"
@@ -74,6 +75,91 @@ TEST_F(SceneCook, GltfIsDescribedByWhatItHolds) {
     for (const char* line : {"vertices: 2399\n", "nodes: 3\n", "meshes: 1\n", "materials: 1\n", "textures: 1\n",
                              "skins: 0\n", "animations: 0\n", "lights: 0\n"})
         EXPECT_THAT(text, HasSubstr(line));
+}
+
+/// A stand-in for the engine's type of probes: its payload is a text that begins with "light".
+cook::AssetType text_probes() {
+    cook::AssetType type;
+    type.name = "probe";
+    type.version = 7;
+    type.recognises = [](const std::filesystem::path&, const nlohmann::json*) { return false; };
+    type.check = [](cook::Context&) {};
+    type.cook = [](cook::Context&) { return std::vector<std::byte>(); };
+    type.describe = [](std::span<const std::byte> payload, const std::string& file) {
+        if (payload.empty() || payload[0] != std::byte{'l'}) refuse_input(file, "", "no light", "light");
+        return std::string("light\n");
+    };
+    return type;
+}
+
+class ProbeScene : public rowland::test::FolderTest {
+ protected:
+    ProbeScene() {
+        registry_.add(text_probes());
+        register_cook_types(registry_);
+    }
+    void write_probe(const std::string& name, const std::string& text, std::uint32_t version = 7) {
+        const std::vector<std::byte> bytes = asset::pack({{"probe", version, {}}, bytes_of(text)});
+        write(name, std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
+    }
+    std::filesystem::path write_scene(const std::string& probe) {
+        return write("room.gltf", R"({"asset": {"version": "2.0"}, "extensionsUsed": ["ROWLAND_light_probe"], "nodes": [
+            {"name": "a", "extensions": {"ROWLAND_light_probe": {"size_m": [4, 3, 5], "fade_m": 0.5, "probe": "a.probe"}}},
+            {"name": "b", "translation": [6, 0, 0], "extensions": {"ROWLAND_light_probe": )" +
+                                      probe + "}}]}");
+    }
+    std::vector<std::byte> cooked(const std::filesystem::path& source) {
+        cook::Context context(source);
+        return registry_.find("scene")->cook(context);
+    }
+
+    cook::Registry registry_;
+};
+
+constexpr const char* kSecondProbe = R"({"size_m": [1, 1, 1], "probe": "b.probe"})";
+
+TEST_F(ProbeScene, ACookedSceneHoldsTheProbesOfItsBoxes) {
+    write_probe("a.probe", "light of a");
+    write_probe("b.probe", "light of b");
+    const std::filesystem::path source = write_scene(kSecondProbe);
+    const std::vector<std::byte> payload = cooked(source);
+    const ImportedScene scene = read_cooked_scene(payload, "room.scene", {});
+    ASSERT_EQ(scene.probes.size(), 2U);
+    EXPECT_EQ(scene.probes[0].size_m, glm::vec3(4.0F, 3.0F, 5.0F));
+    EXPECT_EQ(scene.probes[0].fade_m, 0.5F);
+    EXPECT_EQ(scene.probes[1].fade_m, 1.0F);
+    EXPECT_EQ(scene.nodes[scene.probes[1].node].name, "b");
+    EXPECT_EQ(*scene.probes[0].cooked, bytes_of("light of a"));
+    EXPECT_EQ(*scene.probes[1].cooked, bytes_of("light of b"));
+    EXPECT_THAT(registry_.find("scene")->describe(payload, "room.scene"),
+                HasSubstr("probe: \"a\"\nfile: a.probe\nsize: 4 3 5\nfade: 0.5\nbytes: 10\n"));
+}
+
+TEST_F(ProbeScene, AMissingProbeIsLeftOutAndADependency) {
+    write_probe("a.probe", "light of a");
+    const std::filesystem::path source = write_scene(kSecondProbe);
+    cook::Context context(source);
+    testing::internal::CaptureStderr();
+    const ImportedScene scene = read_cooked_scene(registry_.find("scene")->cook(context), "room.scene", {});
+    EXPECT_THAT(testing::internal::GetCapturedStderr(), HasSubstr("b.probe is not there"));
+    EXPECT_TRUE(scene.probes.at(0).cooked);
+    EXPECT_FALSE(scene.probes.at(1).cooked);
+    EXPECT_THAT(context.dependencies(), Contains(source.parent_path() / "b.probe"));
+}
+
+TEST_F(ProbeScene, WhatIsNoProbeIsRefused) {
+    write_probe("a.probe", "dark");
+    EXPECT_THAT(message_of([&] { cooked(write_scene(kSecondProbe)); }), HasSubstr("a.probe"));
+    write_probe("a.probe", "light", 6);
+    EXPECT_THAT(message_of([&] { cooked(write_scene(kSecondProbe)); }), HasSubstr("version"));
+    write_probe("a.probe", "light");
+    for (const char* probe :
+         {R"({"size_m": [1, 1, 1]})", R"({"size_m": [1, 0, 1], "probe": "b.probe"})",
+          R"({"size_m": [1, -2, 1], "probe": "b.probe"})", R"({"size_m": [1, 1], "probe": "b.probe"})",
+          R"({"size_m": [1, 1, 1], "fade_m": -1, "probe": "b.probe"})",
+          R"({"size_m": [1, 1, 1], "probe": "../b.probe"})", R"({"probe": 3})"}) {
+        EXPECT_THAT(message_of([&] { cooked(write_scene(probe)); }), HasSubstr("nodes")) << probe;
+    }
 }
 
 /// Tables of an extension {"colour": …, "size": …}: its colour, and what the file beside the scene holds.
