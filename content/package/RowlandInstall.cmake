@@ -92,6 +92,7 @@ foreach(module IN ITEMS diffraction thin_film)
 endforeach()
 
 install(TARGETS rowland-cook rowland-trade RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT tools)
+install(TARGETS rowland-capture RUNTIME DESTINATION ${helpers_folder} COMPONENT tools)  # of rowland-cook
 install(FILES ${ROWLAND_COMMIT_FILE} DESTINATION ${helpers_folder} COMPONENT tools)
 # What Scene and the tools run beside them; engine/core/program.h says where it is looked for.
 foreach(component IN ITEMS runtime tools)

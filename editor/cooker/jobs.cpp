@@ -200,7 +200,7 @@ class Worker {
         std::error_code code;
         const auto time = std::filesystem::last_write_time(path, code);
         const auto size = code ? 0 : std::filesystem::file_size(path, code);
-        if (code) return std::nullopt;
+        if (code) return cook::hash_dependency(path);
         const auto found = known_.find(path);
         if (found != known_.end() && found->second.time == time && found->second.size == size)
             return found->second.hash;

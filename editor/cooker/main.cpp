@@ -1,6 +1,7 @@
 // rowland-cook over the asset types of all modules, with its command "export".
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
@@ -14,6 +15,7 @@
 #include "engine/command_line/command_line.h"
 #include "engine/core/error.h"
 #include "engine/core/file.h"
+#include "engine/core/program.h"
 #include "engine/lighting/probe_image.h"
 #include "engine/math/spherical_harmonics.h"
 #include "modules/asset_types.h"
@@ -137,11 +139,28 @@ void add_export_command(CLI::App& program) {
     command->callback([options] { run_export(*options); });
 }
 
+/// Adds `capture`, which is a program of its own: editor/capture.
+void add_capture_command(CLI::App& program) {
+    CLI::App* command =
+        program.add_subcommand("capture", "Capture the light probes of a .gltf or .glb from the scene itself");
+    command->prefix_command();
+    command->set_help_flag();  // its own
+    command->callback([command] {
+        const std::string path = helper_program("rowland-capture").string();
+        std::vector<std::string> arguments = command->remaining();
+        std::vector<char*> argv{const_cast<char*>("rowland-capture")};
+        for (std::string& argument : arguments) argv.push_back(argument.data());
+        argv.push_back(nullptr);
+        execv(path.c_str(), argv.data());
+        fail_system(path, "cannot be run", "build or install Rowland again");
+    });
+}
+
 }  // namespace
 
 }  // namespace rowland::editor
 
 int main(int argc, char** argv) {
     return rowland::editor::run_cooker(argc, argv, *rowland::modules::asset_types(),
-                                       {rowland::editor::add_export_command});
+                                       {rowland::editor::add_export_command, rowland::editor::add_capture_command});
 }

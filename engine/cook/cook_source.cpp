@@ -41,7 +41,7 @@ Hash128 content_hash(const Context& context, const AssetType& type) {
     std::vector<Hash128> hashes;
     for (std::size_t i = 0; i < context.dependencies().size(); ++i) {
         const std::filesystem::path& path = context.dependencies()[i];
-        const std::optional<Hash128> now = hash_file(path);
+        const std::optional<Hash128> now = hash_dependency(path);
         if (now != context.fingerprints()[i]) fail_changed(path);
         if (!now)
             refuse_input(path.string(), {}, "an unreadable file",
@@ -100,7 +100,11 @@ BakedAsset cook_source(const Registry& registry, const std::filesystem::path& so
     BakedAsset baked = bake_source(registry, source);
     check_outputs(baked.dependencies, outputs);  // what the source names is known only now
     // Made before anything is written, since it may refuse a name.
-    const std::string depfile = settings.depfile ? depfile_text(output, baked.dependencies) : std::string();
+    // A build system takes an output of a file that is missing for stale, always.
+    std::vector<std::filesystem::path> present;
+    std::ranges::copy_if(baked.dependencies, std::back_inserter(present),
+                         [](const auto& path) { return std::filesystem::exists(path); });
+    const std::string depfile = settings.depfile ? depfile_text(output, present) : std::string();
 
     write_file_atomic(output, baked.in_container ? asset::pack(baked.asset) : baked.asset.payload);
     if (settings.depfile) write_file_atomic(*settings.depfile, depfile);
@@ -119,7 +123,7 @@ std::optional<std::vector<std::filesystem::path>> unchanged(const CookRecord& re
         files.push_back(source.parent_path() / record.dependencies[i]);
     std::vector<Hash128> hashes;
     for (const std::filesystem::path& file : files) {
-        const std::optional<Hash128> hash = hash_file(file);
+        const std::optional<Hash128> hash = hash_dependency(file);
         if (!hash) return std::nullopt;
         hashes.push_back(*hash);
     }

@@ -19,10 +19,16 @@ constexpr std::uint64_t kMaximumJsonBytes = std::uint64_t{16} << 20;
 
 }  // namespace
 
+std::optional<Hash128> hash_dependency(const std::filesystem::path& path) {
+    std::error_code unknown;
+    const bool missing = std::filesystem::status(path, unknown).type() == std::filesystem::file_type::not_found;
+    return missing ? Hash128{} : hash_file(path);
+}
+
 void Context::depend_on(const std::filesystem::path& path) {
     if (std::find(dependencies_.begin(), dependencies_.end(), path) != dependencies_.end()) return;
     dependencies_.push_back(path);
-    fingerprints_.push_back(hash_file(path));
+    fingerprints_.push_back(hash_dependency(path));
 }
 
 std::vector<std::byte> Context::read(const std::filesystem::path& path, std::uint64_t max_bytes,

@@ -22,6 +22,9 @@ struct ImportedScene;
 
 namespace rowland::cook {
 
+/// The content of what a cook depends on: hash_file(), or zero for a file that does not exist.
+std::optional<Hash128> hash_dependency(const std::filesystem::path& path);
+
 /// What one cook reads. Every file is read through it, so that the dependency file is complete.
 class Context {
  public:
@@ -31,7 +34,7 @@ class Context {
     /// A path named inside the source, relative to the source's folder.
     std::filesystem::path beside_source(const std::string& name) const { return source_.parent_path() / name; }
     /// Records that the result depends on `path`, and the hash of what the file holds now. Call it before reading. It
-    /// throws nothing: the reader refuses a file that cannot be read.
+    /// throws nothing: the reader refuses a file that cannot be read. One that need not exist may be missing.
     void depend_on(const std::filesystem::path& path);
     /// Each file once, in the order of the first mention; the source comes first.
     const std::vector<std::filesystem::path>& dependencies() const { return dependencies_; }
