@@ -22,7 +22,7 @@ namespace rowland::render {
 struct ProbeVolume {
     std::shared_ptr<const lighting::LightProbe> probe;
     glm::vec3 half{1.0F};  ///< of the box's sides, along the entity's axes
-    float fade_m = 1.0F;   ///< beyond the box, over which other light takes its place; 0: at once
+    float fade_m = 1.0F;   ///< beyond the box, over which its light gives way to other light; 0: at once
 };
 
 /// Where a volume's light holds, in the world.

@@ -125,7 +125,7 @@ struct ImportedCamera {
 struct ImportedProbe {
     std::size_t node = 0;
     glm::vec3 size_m{1.0F};  ///< of the box, along the node's axes and times its scale
-    float fade_m = 1.0F;     ///< beyond the box, over which other light takes its place
+    float fade_m = 1.0F;     ///< beyond the box, over which its light gives way to other light
     std::string uri;         ///< of the cooked probe, from the glTF's folder
     /// The probe's payload, of cooked scenes only; equal probes are shared. Null: the file was not there.
     std::shared_ptr<const std::vector<std::byte>> cooked = {};

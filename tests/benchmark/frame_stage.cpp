@@ -182,6 +182,7 @@ FrameScene::FrameScene(FrameVariant variant, FrameStage& stage, bool software)
                                                    .grooves = variant_.groove_map ? stage.groove_map() : nullptr});
     if (variant_.shader == Shader::Film) add_film();
     if (variant_.worn) add_wear();
+    if (variant_.in_box || variant_.between_boxes) add_box();
     if (variant_.lighting == Lighting::LampsInScene) {
         std::vector<render::DistantLight> distant;
         for (const scene::DirectionalLight& lamp : lamps(variant_.lamps)) {
@@ -196,6 +197,15 @@ FrameScene::FrameScene(FrameVariant variant, FrameStage& stage, bool software)
     }
     if (variant_.effect == Effect::LocalReflection) add_reflected_plane();
     scene::update_world_matrices(world_);
+}
+
+void FrameScene::add_box() {
+    constexpr float kHalf_m = 5.0F;
+    const ecs::Entity box = world_.create();
+    // Half a metre beside the disc, over a fade of one, or around it.
+    world_.add(box, scene::Transform{.translation = {variant_.between_boxes ? kHalf_m + 0.5F : 0.0F, 0.0F, 0.0F}});
+    world_.add(box, render::ProbeVolume{.probe = std::make_shared<const lighting::LightProbe>(probe_of(variant_)),
+                                        .half = glm::vec3(kHalf_m)});
 }
 
 void FrameScene::add_film() {

@@ -71,6 +71,7 @@ class FrameScene {
     const FrameVariant& variant() const { return variant_; }
 
  private:
+    void add_box();
     void add_film();
     void add_wear();
     void add_reflected_plane();

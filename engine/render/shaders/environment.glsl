@@ -176,10 +176,10 @@ vec3 with_object_reflection(vec3 beyond, vec3 direction, float roughness) {
 // it [Lagarde & Zanuttini 2012]. Outside the box the ray begins at the box's nearest point. Not a unit vector.
 vec3 captured_direction(vec3 direction) {
 #ifdef LOCAL_PROBE
-    vec3 along = mat3(world_to_box) * direction;
-    along = mix(along, vec3(1e-20), equal(along, vec3(0.0)));
+    vec3 along = mat3(world_to_box) * direction + 1e-20;  // not zero
     vec3 from = clamp((world_to_box * vec4(world_position, 1.0)).xyz, -1.0, 1.0);
-    vec3 leaving = (sign(along) - from) / along;
+    vec3 inverse_along = 1.0 / along;
+    vec3 leaving = abs(inverse_along) - from * inverse_along;
     return mat3(box_to_world) * (from + min(leaving.x, min(leaving.y, leaving.z)) * along);
 #else
     return direction;

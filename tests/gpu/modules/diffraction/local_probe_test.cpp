@@ -42,8 +42,8 @@ const glm::vec3 kSky(0.1F, 0.9F, 0.2F);
 /// One object in front of the camera.
 class LocalProbe : public test::GlTest {
  protected:
-    LocalProbe() {
-        register_module(renderer_, {.map_pace = MapPace::Whole});
+    explicit LocalProbe(MapPace pace = MapPace::Whole) {
+        register_module(renderer_, {.map_pace = pace});
         renderer_.set_probe(*probe_of(kSky));
         renderer_.use_key_lights(true);
         object_ = world_.create();
@@ -169,10 +169,10 @@ TEST_F(LocalProbe, AMirrorShowsTheWallsWhereItsRaysMeetThem) {
     const glm::dvec3 half(3.0, 2.0, 2.5);
     add_box(probe_of(glm::vec3(1.0F), half), {}, glm::vec3(half));
     world_.add(object_, render::StandardMaterial{.base_colour = glm::vec3(1.0F), .metallic = 1.0F, .roughness = 0.0F});
-    const glm::vec3 place(1.7F, -0.6F, -0.8F);
-    world_.get<scene::Transform>(object_).translation = place;
-    camera_.eye = place + glm::vec3(-1.0F, 0.8F, 3.0F);
-    camera_.target = place;
+    const glm::vec3 centre(1.7F, -0.6F, -0.8F);
+    world_.get<scene::Transform>(object_).translation = centre;
+    camera_.eye = centre + glm::vec3(-1.0F, 0.8F, 3.0F);
+    camera_.target = centre;
     const std::vector<glm::vec4> drawn = draw();
     int compared = 0;
     int wrong = 0;
@@ -180,13 +180,13 @@ TEST_F(LocalProbe, AMirrorShowsTheWallsWhereItsRaysMeetThem) {
     for (int row = 0; row < kSize; ++row)
         for (int column = 0; column < kSize; ++column) {
             const scene::Ray ray = scene::ray_through(camera_, glm::dvec2(column, row) + 0.5, glm::dvec2(kSize));
-            const glm::dvec3 from = glm::dvec3(ray.origin) - glm::dvec3(place);
+            const glm::dvec3 from = glm::dvec3(ray.origin) - glm::dvec3(centre);
             const glm::dvec3 along(ray.direction);
             const double middle = glm::dot(from, along);
             const double under = middle * middle - glm::dot(from, from) + 1.0;
             if (under < 0.2) continue;  // beside the sphere or at its outline
             const glm::dvec3 normal = from - (middle + std::sqrt(under)) * along;
-            const glm::dvec3 point = glm::dvec3(place) + normal;
+            const glm::dvec3 point = glm::dvec3(centre) + normal;
             const glm::dvec3 mirrored = glm::reflect(along, normal);
             const glm::dvec3 steps = (half * glm::sign(mirrored) - point) / mirrored;
             const glm::dvec3 met = point + std::min({steps.x, steps.y, steps.z}) * mirrored;
@@ -199,6 +199,53 @@ TEST_F(LocalProbe, AMirrorShowsTheWallsWhereItsRaysMeetThem) {
     EXPECT_GT(compared, 300);
     EXPECT_GT(moved, compared / 5);       // as from the middle it would be another wall
     EXPECT_LT(wrong, compared * 2 / 10);  // along the edges and at the lamp
+}
+
+/// Through a door, while maps are filled behind the frames.
+class Door : public LocalProbe {
+ protected:
+    Door() : LocalProbe(MapPace::Incremental) {
+        world_.add(object_, scene::Transform{});
+        camera_.eye.z = 5.0F;
+        use(cook(kSlitCd, R"({"representation": "circle", "map_resolution": 32, "key_lights": 4})"));
+    }
+    /// The largest change of a component from one frame of a walk to the next.
+    float largest_step() {
+        float largest = 0.0F;
+        std::vector<glm::vec4> before;
+        for (int frame = 0; frame <= kFrames; ++frame) {
+            const float along = 2.0F * static_cast<float>(frame) / kFrames - 1.0F;
+            world_.get<scene::Transform>(object_).translation.x = kReach * along;
+            std::vector<glm::vec4> shown = draw();
+            for (int wait = 0; frame == 0 && maps_are_filling(world_) && wait < 10000; ++wait) shown = draw();
+            for (std::size_t i = 0; i < before.size(); ++i)
+                for (int c = 0; c < 3; ++c) largest = std::max(largest, std::abs(shown[i][c] - before[i][c]));
+            before = std::move(shown);
+        }
+        return largest;
+    }
+
+    static constexpr int kFrames = 200;
+    static constexpr float kReach = 1.5F;
+};
+
+TEST_F(Door, AnObjectOnItsWayThroughChangesAsLittleAsInOneRoom) {
+    const auto warm = probe_of(kWarm);
+    const auto cold = probe_of(kCold);
+    const std::array centres = {glm::vec3(-20.0F, 0.0F, 0.0F), glm::vec3(19.0F, 0.0F, 0.0F)};
+    const std::array halves = {glm::vec3(20.0F), glm::vec3(19.0F)};
+    float in_one_room = 0.0F;
+    for (const auto& probe : {warm, cold}) {
+        const std::array rooms = {add_box(probe, centres[0], halves[0]), add_box(probe, centres[1], halves[1])};
+        in_one_room = std::max(in_one_room, largest_step());
+        for (const ecs::Entity room : rooms) world_.destroy(room);
+    }
+    add_box(warm, centres[0], halves[0]);
+    add_box(cold, centres[1], halves[1]);
+    const float through_the_door = largest_step();
+    RecordProperty("ratio", std::to_string(through_the_door / in_one_room));
+    EXPECT_GT(in_one_room, 0.0F);
+    EXPECT_LE(through_the_door, 1.1F * in_one_room);
 }
 
 }  // namespace
