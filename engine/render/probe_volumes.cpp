@@ -44,6 +44,7 @@ ProbeVolumes gather_volumes(ecs::World& world) {
 }
 
 LightMix light_at(const glm::vec3& point, std::span<const ProbeBox> boxes) {
+    if (boxes.empty()) return {};
     std::vector<std::pair<float, std::size_t>> by_volume;  // volume, index of the light
     for (std::size_t i = 0; i < boxes.size(); ++i)
         if (boxes[i].weight(point) > 0.0F) by_volume.emplace_back(boxes[i].volume_m3(), i + 1);
