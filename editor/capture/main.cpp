@@ -3,10 +3,16 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
+#include <cstddef>
 #include <filesystem>
+#include <glm/common.hpp>
 #include <glm/matrix.hpp>
+#include <glm/vec4.hpp>
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "engine/asset/container.h"
@@ -16,12 +22,16 @@
 #include "engine/core/file.h"
 #include "engine/core/log.h"
 #include "engine/core/program.h"
+#include "engine/gpu/framebuffer.h"
+#include "engine/lighting/environment_map.h"
 #include "engine/lighting/light_probe.h"
+#include "engine/lighting/procedural_probe.h"
 #include "engine/live/live_assets.h"
 #include "engine/platform/gl_context.h"
+#include "engine/render/reflections.h"
 #include "engine/render/scene_instance.h"
+#include "engine/scene/camera.h"
 #include "engine/scene/transform.h"
-#include "engine/view/probe_capture.h"
 #include "modules/asset_types.h"
 #include "modules/material_types.h"
 
@@ -43,23 +53,80 @@ std::map<std::filesystem::path, scene::ImportedProbe> wanted(const scene::Import
     std::map<std::filesystem::path, scene::ImportedProbe> probes;
     std::vector<std::string> names;
     for (const scene::ImportedProbe& probe : scene.probes) {
-        const std::string& name = scene.nodes[probe.node].name;
-        names.push_back('"' + name + '"');
+        const std::string& name = names.emplace_back(scene.nodes[probe.node].name);
         if (!options.only.empty() && std::ranges::find(options.only, name) == options.only.end()) continue;
-        const auto [known, is_new] = probes.emplace(options.scene.parent_path() / probe.uri, probe);
+        const auto [known, is_new] = probes.emplace(options.scene.parent_path() / probe.file, probe);
         if (!is_new)
-            refuse_input(
-                file, "",
-                fmt::format("the file {} for \"{}\" and \"{}\"", probe.uri, scene.nodes[known->second.node].name, name),
-                "a file for each probe");
+            refuse_input(file, "",
+                         fmt::format("the file {} for \"{}\" and \"{}\"", probe.file.string(),
+                                     scene.nodes[known->second.node].name, name),
+                         "a file for each probe");
     }
     for (const std::string& name : options.only)
-        if (std::ranges::find(names, '"' + name + '"') == names.end())
-            refuse_input("--only", "", '"' + name + '"', fmt::format("one of {}", fmt::join(names, ", ")));
+        if (std::ranges::find(names, name) == names.end())
+            refuse_input("--only", "", fmt::format("\"{}\"", name),
+                         fmt::format("one of \"{}\"", fmt::join(names, "\", \"")));
     if (probes.empty())
         refuse_input(file, "", "no node with ROWLAND_light_probe", "at least one box",
-                     "add a probe in Blender (Rowland's add-on)");
+                     "give a node the extension: \"The light of a room\" in content/README.md");
     return probes;
+}
+
+constexpr float kNearest_m = 0.02F;
+constexpr float kFarthest_m = 1000.0F;
+
+/// Means of two by two pixels.
+std::vector<glm::vec3> halved(const std::vector<glm::vec4>& pixels, int size) {
+    std::vector<glm::vec3> result;
+    result.reserve(pixels.size() / 4);
+    const auto at = [&](int column, int row) {
+        return glm::vec3(
+            pixels[static_cast<std::size_t>(row) * static_cast<std::size_t>(size) + static_cast<std::size_t>(column)]);
+    };
+    for (int row = 0; row < size; row += 2)
+        for (int column = 0; column < size; column += 2)
+            result.push_back(0.25F *
+                             (at(column, row) + at(column + 1, row) + at(column, row + 1) + at(column + 1, row + 1)));
+    return result;
+}
+
+/// Bilinear within a face, whose rows come from the top down.
+glm::vec3 sample(const std::vector<glm::vec3>& face, int size, const lighting::CubePoint& point) {
+    const double x = std::clamp((1.0 + point.s) * 0.5 * size - 0.5, 0.0, size - 1.0);
+    const double y = std::clamp((1.0 - point.t) * 0.5 * size - 0.5, 0.0, size - 1.0);
+    const int column = std::min(static_cast<int>(x), size - 2);
+    const int row = std::min(static_cast<int>(y), size - 2);
+    const auto at = [&](int i, int j) { return face[static_cast<std::size_t>((row + j) * size + column + i)]; };
+    const auto across = static_cast<float>(x - column);
+    return glm::mix(glm::mix(at(0, 0), at(1, 0), across), glm::mix(at(0, 1), at(1, 1), across),
+                    static_cast<float>(y - row));
+}
+
+/// What is seen from a point in all directions, as an equirectangular image of 4 · `face_size` by 2 · `face_size`
+/// texels: six pictures of so many texels a side, four samples to a texel, in 32-bit floats. `renderer`: one whose
+/// working space is linear Rec.709.
+lighting::ProbeImage capture_surroundings(render::Renderer& renderer, ecs::World& world, const glm::vec3& position,
+                                          int face_size) {
+    const int drawn_size = 2 * face_size;
+    const gpu::Framebuffer target(
+        {.width = drawn_size, .height = drawn_size, .colours = {gpu::Format::RGBA32F}, .depth = true});
+    std::array<std::vector<glm::vec3>, render::ObjectReflection::kFaces> faces;
+    for (std::size_t face = 0; face < faces.size(); ++face) {
+        scene::Camera camera = render::cube_face_camera(static_cast<int>(face), position);
+        camera.near_plane = kNearest_m;
+        camera.far_plane = kFarthest_m;
+        renderer.render(world, camera, target);
+        faces[face] = halved(target.read_rgba_float(), drawn_size);
+    }
+    image::Image picture{.width = 4 * face_size, .height = 2 * face_size, .texels = {}};
+    picture.texels.reserve(static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height));
+    for (int row = 0; row < picture.height; ++row)
+        for (int column = 0; column < picture.width; ++column) {
+            const lighting::CubePoint point =
+                lighting::cube_point(lighting::equirectangular_direction(column + 0.5, row + 0.5, picture.width));
+            picture.texels.push_back(sample(faces.at(static_cast<std::size_t>(point.face)), face_size, point));
+        }
+    return {std::move(picture), lighting::Mapping::Equirectangular};
 }
 
 void write_probe(const std::filesystem::path& path, const lighting::LightProbe& probe) {
@@ -96,7 +163,7 @@ void capture(const Options& options) {
     Progress progress("capturing " + options.scene.filename().string(), probes.size());
     for (const auto& [path, probe] : probes) {
         const glm::vec3 position(scene.nodes[probe.node].world[3]);
-        const lighting::ProbeImage image = view::capture_surroundings(renderer, world, position, options.face_size);
+        const lighting::ProbeImage image = capture_surroundings(renderer, world, position, options.face_size);
         write_probe(path, lighting::build_light_probe(image, settings));
         progress.advance();
     }
@@ -115,11 +182,9 @@ int run(int argc, const char* const* argv) {
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     app.footer(
-        "Draws each probe's surroundings without a window and writes the cooked probe to the file that its node "
-        "names,\n"
-        "beside the scene. Surfaces are lit by the scene's lights and the light far away alone, so that the result "
-        "does\n"
-        "not depend on an earlier capture. Then the scene is cooked again with its probes.\n\n"
+        "Draws each probe's surroundings without a window and writes the cooked probe to the file that its\n"
+        "node names, beside the scene. Surfaces are lit by the scene's lights and the light far away alone,\n"
+        "so that the result does not depend on an earlier capture. Cook the scene again to take them over.\n\n"
         "Example: rowland-cook capture level.glb --probe content/probes/clear_sky.json");
     if (!parse_command_line(app, argc, argv)) return 0;
     capture(options);

@@ -100,11 +100,13 @@ BakedAsset cook_source(const Registry& registry, const std::filesystem::path& so
     BakedAsset baked = bake_source(registry, source);
     check_outputs(baked.dependencies, outputs);  // what the source names is known only now
     // Made before anything is written, since it may refuse a name.
-    // A build system takes an output of a file that is missing for stale, always.
-    std::vector<std::filesystem::path> present;
-    std::ranges::copy_if(baked.dependencies, std::back_inserter(present),
-                         [](const auto& path) { return std::filesystem::exists(path); });
-    const std::string depfile = settings.depfile ? depfile_text(output, present) : std::string();
+    std::string depfile;
+    if (settings.depfile) {
+        // A build system takes an output of a file that is missing for stale, always.
+        std::vector<std::filesystem::path> present = baked.dependencies;
+        std::erase_if(present, [](const auto& path) { return !std::filesystem::exists(path); });
+        depfile = depfile_text(output, present);
+    }
 
     write_file_atomic(output, baked.in_container ? asset::pack(baked.asset) : baked.asset.payload);
     if (settings.depfile) write_file_atomic(*settings.depfile, depfile);

@@ -17,7 +17,7 @@
 namespace rowland::render {
 
 /// Component of an entity with a WorldMatrix: the light in a box about the entity's origin, where the probe was
-/// captured. Objects in the box have this light in place of the renderer's probe. Where boxes overlap, the smaller one
+/// captured. Objects in the box have this light instead of the renderer's probe. Where boxes overlap, the smaller one
 /// comes first.
 struct ProbeVolume {
     std::shared_ptr<const lighting::LightProbe> probe;
@@ -43,8 +43,9 @@ struct ProbeVolumes {
 };
 ProbeVolumes gather_volumes(ecs::World& world);
 
-/// The light at a point. Continuous in it, but where three parts are equal: of the boxes' parts, a smaller box takes its weight() of what those before
-/// it left, and the renderer's probe the rest; of more than two parts the third one's size is taken off the larger two.
+/// The light at a point. A smaller box takes its weight() of what the boxes before it left, and the renderer's probe
+/// takes the remainder; of more than two parts the third largest is subtracted from the larger two. Continuous in the
+/// point, but where three parts are equal.
 LightMix light_at(const glm::vec3& point, std::span<const ProbeBox> boxes);
 
 /// A probe as shaders and material types read it.

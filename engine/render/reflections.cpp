@@ -153,7 +153,7 @@ ObjectReflection::ObjectReflection(int face_size)
     }
 }
 
-scene::Camera ObjectReflection::camera(int face) const {
+scene::Camera cube_face_camera(int face, const glm::vec3& centre) {
     const glm::vec3 forward(lighting::cube_direction(face, 0.0, 0.0));
     // A face's first row of texels is the lowest of a picture that is taken with its rows upward.
     const glm::vec3 upward = glm::vec3(lighting::cube_direction(face, 0.0, 1.0)) - forward;

@@ -74,6 +74,9 @@ struct ReflectsObjects {
     ecs::Entity group;  ///< a mirror shows nothing of its own group
 };
 
+/// From `centre` through a face of a cube map, whose first row of texels is the picture's lowest.
+scene::Camera cube_face_camera(int face, const glm::vec3& centre);
+
 /// The light from objects around a point and their distance, as two cube maps. A mirror near the point searches them
 /// for what its rays meet [Szirmay-Kalos et al. 2005, "Approximate ray-tracing on the GPU with distance impostors"]:
 /// for any camera, without noise. What the point does not see, mirrors do not show.
@@ -84,8 +87,7 @@ class ObjectReflection {
     /// Of a cube map's face, of so many texels; 1: for empty surroundings.
     explicit ObjectReflection(int face_size);
 
-    /// The view of a face from the centre.
-    scene::Camera camera(int face) const;
+    scene::Camera camera(int face) const { return cube_face_camera(face, centre); }
     /// Takes a face from a picture that shows it, of twice the size, and the picture's depth.
     void store(ProgramCache& programs, const gpu::FullScreenTriangle& triangle, const gpu::Framebuffer& picture,
                int face);

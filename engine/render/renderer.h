@@ -52,9 +52,9 @@ struct FrameReport {
 
 /// Forward HDR renderer: draws all entities with a MeshInstance, a StandardMaterial and a WorldMatrix, then the sky,
 /// then those that blend, into a float framebuffer with depth, in the working space. Light comes from the probe or, by
-/// the centre of an entity's bounds, from up to two probes of entities with a ProbeVolume, and
-/// from entities with a DirectionalLight or a PunctualLight, at most 64; the first directional light that casts_shadow
-/// does. An entity with PictureColumns is drawn in those only, and casts its whole shadow.
+/// the centre of an entity's bounds, from up to two probes of entities with a ProbeVolume, and from entities with a
+/// DirectionalLight or a PunctualLight, at most 64; the first directional light that casts_shadow does. An entity with
+/// PictureColumns is drawn in those only, and casts its whole shadow.
 class Renderer {
  public:
     /// `xyz_to_working`: from XYZ to the linear space images are made in (normally ACEScg).

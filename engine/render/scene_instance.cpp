@@ -78,7 +78,7 @@ class Builder {
         auto& probe = probes_[imported.cooked.get()];
         if (!probe)
             probe = std::make_shared<const lighting::LightProbe>(
-                lighting::deserialise(*imported.cooked, file_ + ": " + imported.uri));
+                lighting::deserialise(*imported.cooked, file_ + ": " + imported.file.string()));
         const ecs::Entity entity = child_of(imported.node);
         instance_.probes.push_back(entity);
         world_.add(entity, ProbeVolume{.probe = probe, .half = 0.5F * imported.size_m, .fade_m = imported.fade_m});

@@ -18,7 +18,6 @@
 #include "engine/core/log.h"
 #include "engine/core/text.h"
 #include "engine/scene/glb_write.h"
-#include "engine/scene/gltf_check.h"
 #include "engine/scene/gltf_import.h"
 #include "engine/scene/gltf_source.h"
 #include "engine/scene/mesh_recipe.h"
@@ -156,70 +155,71 @@ SceneTables cook_tables(cook::Context& context, const ImportedScene& scene,
     return cooked;
 }
 
-/// The payloads of the scene's probes. A file that is not there is left out, so that a scene can be drawn to capture
-/// its probes.
-void read_probes(cook::Context& context, const GltfSource& source, const cook::AssetType* type, ImportedScene& scene) {
-    std::map<std::filesystem::path, std::shared_ptr<const Bytes>> known;
-    for (ImportedProbe& probe : scene.probes) {
-        const std::filesystem::path path =
-            file_of_uri(source, probe.uri, std::string("/nodes/extensions/") + kProbeExtension);
-        auto& payload = known[path];
-        if (!payload) {
+/// The payloads of a scene's probes, those of a file stored once.
+struct SceneProbes {
+    struct Use {
+        std::size_t probe;
+        std::size_t payload;
+    };
+    std::vector<Bytes> payloads;
+    std::vector<Use> uses;
+};
+
+/// A file that is not there is left out, so that a scene can be drawn to capture its probes.
+SceneProbes read_probes(cook::Context& context, const ImportedScene& scene, const cook::AssetType* type) {
+    SceneProbes read;
+    std::map<std::filesystem::path, std::size_t> known;
+    for (std::size_t i = 0; i < scene.probes.size(); ++i) {
+        const std::filesystem::path path = context.beside_source(scene.probes[i].file.string());
+        auto found = known.find(path);
+        if (found == known.end()) {
             context.depend_on(path);
             if (!std::filesystem::exists(path)) {
-                log_warning("{}: {} is not there: its box has the light around it; capture it: rowland-cook capture {}",
-                            source.file, path.string(), source.file);
+                log_warning(
+                    "{0}: {1} is not there: its box has the light around it; capture it: rowland-cook capture {0}",
+                    context.source().string(), path.string());
                 continue;
             }
             asset::CookedAsset cooked = asset::unpack(context.read(path, kMaximumHashedBytes), path.string());
             ROWLAND_CHECK(type != nullptr, "a scene with probes needs the asset type of probes");
             asset::check_type(cooked.header, kProbeAssetType, type->version, path.string());
             type->describe(cooked.payload, path.string());
-            payload = std::make_shared<const Bytes>(std::move(cooked.payload));
+            found = known.emplace(path, read.payloads.size()).first;
+            read.payloads.push_back(std::move(cooked.payload));
         }
-        probe.cooked = payload;
+        read.uses.push_back({i, found->second});
     }
+    return read;
 }
 
-/// A list of byte arrays in which each is stored once.
-class SharedArrays {
- public:
-    std::uint32_t index_of(const std::shared_ptr<const Bytes>& bytes) {
-        const auto found = std::ranges::find(arrays_, bytes);
-        if (found != arrays_.end()) return static_cast<std::uint32_t>(found - arrays_.begin());
-        arrays_.push_back(bytes);
-        return static_cast<std::uint32_t>(arrays_.size() - 1);
-    }
-    void write(ByteWriter& writer) const {
-        writer.value(static_cast<std::uint32_t>(arrays_.size()));
-        for (const auto& bytes : arrays_) writer.array(std::span<const std::byte>(*bytes));
-    }
+void write_arrays(ByteWriter& writer, const std::vector<Bytes>& arrays) {
+    writer.value(static_cast<std::uint32_t>(arrays.size()));
+    for (const Bytes& bytes : arrays) writer.array(std::span<const std::byte>(bytes));
+}
 
- private:
-    std::vector<std::shared_ptr<const Bytes>> arrays_;
-};
+std::vector<std::shared_ptr<const Bytes>> read_arrays(ByteReader& reader) {
+    std::vector<std::shared_ptr<const Bytes>> arrays;
+    const auto count = reader.value<std::uint32_t>();
+    for (std::uint32_t i = 0; i < count; ++i)
+        arrays.push_back(std::make_shared<const Bytes>(reader.array<std::byte>()));
+    return arrays;
+}
 
-Bytes write_payload(const Bytes& glb, const SceneTables& cooked, const std::vector<ImportedProbe>& probes) {
+Bytes write_payload(const Bytes& glb, const SceneTables& cooked, const SceneProbes& probes) {
     ByteWriter writer;
     writer.array(std::span<const std::byte>(glb));
-    writer.value(static_cast<std::uint32_t>(cooked.tables.size()));
-    for (const Bytes& table : cooked.tables) writer.array(std::span<const std::byte>(table));
+    write_arrays(writer, cooked.tables);
     writer.value(static_cast<std::uint32_t>(cooked.uses.size()));
     for (const SceneTables::Use& use : cooked.uses) {
         writer.value(static_cast<std::uint32_t>(use.material));
         writer.text(use.extension);
         writer.value(static_cast<std::uint32_t>(use.table));
     }
-    SharedArrays payloads;
-    std::vector<std::pair<std::uint32_t, std::uint32_t>> of_probes;  // index of the probe, of its payload
-    for (std::size_t i = 0; i < probes.size(); ++i)
-        if (probes[i].cooked)
-            of_probes.emplace_back(static_cast<std::uint32_t>(i), payloads.index_of(probes[i].cooked));
-    payloads.write(writer);
-    writer.value(static_cast<std::uint32_t>(of_probes.size()));
-    for (const auto& [probe, payload] : of_probes) {
-        writer.value(probe);
-        writer.value(payload);
+    write_arrays(writer, probes.payloads);
+    writer.value(static_cast<std::uint32_t>(probes.uses.size()));
+    for (const SceneProbes::Use& use : probes.uses) {
+        writer.value(static_cast<std::uint32_t>(use.probe));
+        writer.value(static_cast<std::uint32_t>(use.payload));
     }
     return writer.take();
 }
@@ -258,8 +258,8 @@ std::string describe_scene(const ImportedScene& scene, const std::string& file,
         scene.textures.size(), scene.skins.size(), scene.animations.size(), scene.lights.size(), scene.probes.size());
     for (const ImportedProbe& probe : scene.probes)
         text += fmt::format("\nprobe: \"{}\"\nfile: {}\nsize: {} {} {}\nfade: {}\nbytes: {}\n",
-                            scene.nodes[probe.node].name, probe.uri, probe.size_m.x, probe.size_m.y, probe.size_m.z,
-                            probe.fade_m, probe.cooked ? probe.cooked->size() : 0);
+                            scene.nodes[probe.node].name, probe.file.string(), probe.size_m.x, probe.size_m.y,
+                            probe.size_m.z, probe.fade_m, probe.cooked ? probe.cooked->size() : 0);
     for_each_extension(
         scene, extensions, [&](std::size_t i, const cook::GltfExtension& extension, const nlohmann::json& object) {
             const std::string pointer = pointer_of(i, extension.name);
@@ -305,14 +305,6 @@ cook::AssetType mesh_type() {
     type.check = [](cook::Context& context) { build_source(context); };
     type.describe = describe_mesh;
     return type;
-}
-
-std::vector<std::shared_ptr<const Bytes>> read_arrays(ByteReader& reader) {
-    std::vector<std::shared_ptr<const Bytes>> arrays;
-    const auto count = reader.value<std::uint32_t>();
-    for (std::uint32_t i = 0; i < count; ++i)
-        arrays.push_back(std::make_shared<const Bytes>(reader.array<std::byte>()));
-    return arrays;
 }
 
 }  // namespace
@@ -367,10 +359,10 @@ void register_scene_type(cook::Registry& registry) {
     }
     type.cook = [extensions, names, probe](cook::Context& context) {
         GltfSource source = read_source(context);
-        ImportedScene scene = import_source(context, source, extensions, names);
-        read_probes(context, source, probe ? &*probe : nullptr, scene);
+        const ImportedScene scene = import_source(context, source, extensions, names);
+        const SceneProbes probes = read_probes(context, scene, probe ? &*probe : nullptr);
         const Bytes glb = packed_glb(context, std::move(source));
-        return write_payload(glb, cook_tables(context, scene, extensions), scene.probes);
+        return write_payload(glb, cook_tables(context, scene, extensions), probes);
     };
     type.check = [extensions, names](cook::Context& context) {
         merge_instances(import_source(context, read_source(context), extensions, names));

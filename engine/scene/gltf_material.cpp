@@ -13,15 +13,14 @@
 
 namespace rowland::scene {
 
+double number_or(const gltf::Value& object, const std::string& key, double fallback) {
+    return object.Has(key) ? object.Get(key).GetNumberAsDouble() : fallback;
+}
+
 namespace {
 
 // Decoded images have a budget of their own: a dozen of 4096 × 4096 texels.
 constexpr std::uint64_t kMaximumPictureBytes = std::uint64_t{1} << 30;
-
-/// A number of an extension's object.
-double number_or(const gltf::Value& object, const std::string& key, double fallback) {
-    return object.Has(key) ? object.Get(key).GetNumberAsDouble() : fallback;
-}
 
 glm::vec2 vec2_or(const gltf::Value& object, const std::string& key, const glm::vec2& fallback) {
     if (!object.Has(key)) return fallback;

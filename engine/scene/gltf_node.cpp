@@ -119,11 +119,12 @@ ImportedCamera camera_of(const gltf::Camera& from, std::size_t node) {
     return camera;
 }
 
-ImportedProbe probe_of(const gltf::Value& from, std::size_t node) {
-    ImportedProbe probe{.node = node, .uri = from.Get("probe").Get<std::string>()};
+ImportedProbe probe_of(const gltf::Value& from, std::size_t node, const std::string& file, const std::string& pointer) {
+    ImportedProbe probe{.node = node,
+                        .fade_m = static_cast<float>(number_or(from, "fade_m", ImportedProbe{}.fade_m)),
+                        .file = relative_path_of_uri(file, from.Get("probe").Get<std::string>(), pointer + "/probe")};
     for (int i = 0; i < 3; ++i)
         probe.size_m[i] = static_cast<float>(from.Get("size_m").Get(static_cast<std::size_t>(i)).GetNumberAsDouble());
-    if (from.Has("fade_m")) probe.fade_m = static_cast<float>(from.Get("fade_m").GetNumberAsDouble());
     return probe;
 }
 
@@ -174,7 +175,8 @@ class NodeImport {
                                                   scene_.nodes.back().extras, document_, pointer)});
         }
         if (const auto probe = node.extensions.find(kProbeExtension); probe != node.extensions.end())
-            scene_.probes.push_back(probe_of(probe->second, at));
+            scene_.probes.push_back(
+                probe_of(probe->second, at, document_.file, pointer + "/extensions/" + kProbeExtension));
         if (node.camera >= 0)
             if (const gltf::Camera& camera = document_.model.cameras[static_cast<std::size_t>(node.camera)];
                 camera.type == "perspective")

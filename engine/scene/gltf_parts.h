@@ -53,7 +53,9 @@ std::vector<glm::mat4> read_matrices(const GltfDocument& document, int accessor,
 /// The elements of an accessor of unsigned integers. Throws Error (input) if it is not one.
 std::vector<std::uint32_t> read_indices(const GltfDocument& document, int accessor, MemoryBudget& budget);
 
-/// gltf_material.cpp: the materials.
+/// gltf_material.cpp: a number of an extension's object.
+double number_or(const gltf::Value& object, const std::string& key, double fallback);
+/// The materials.
 std::vector<MaterialDescription> import_materials(const GltfDocument& document, std::vector<std::string>& warnings);
 /// Fills the images and textures of `scene`. Images that a texture names are decoded, each once; the others, and
 /// textures without an image, get a white texel, so that indices are the file's and always valid. `read_files`, if

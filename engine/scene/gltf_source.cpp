@@ -185,19 +185,24 @@ std::vector<std::byte> glb_beginning(std::string json, std::optional<std::size_t
 }
 
 /// A hostile glTF must not read other files, nor probe for them by the error messages.
-std::filesystem::path file_of_uri(const GltfSource& source, const std::string& uri, const std::string& pointer) {
+std::filesystem::path relative_path_of_uri(const std::string& file, const std::string& uri,
+                                           const std::string& pointer) {
     const std::string expected = "the name of a file in the glTF's folder, or base64 data";
-    if (!source.folder)
-        refuse_input(source.file, pointer, fmt::format("an external file \"{:.60}\"", uri), "embedded data");
     const std::string name = percent_decode(uri);
     if (name.empty() || name.find('\0') != std::string::npos || name.find(':') != std::string::npos ||
         name.find('\\') != std::string::npos)
-        refuse_input(source.file, pointer, fmt::format("URI \"{:.60}\"", uri), expected, kFileRemedy);
+        refuse_input(file, pointer, fmt::format("URI \"{:.60}\"", uri), expected, kFileRemedy);
     const std::filesystem::path path = std::filesystem::path(name).lexically_normal();
     if (path.is_absolute() || *path.begin() == "..")
-        refuse_input(source.file, pointer, fmt::format("URI \"{:.60}\", outside the glTF's folder", uri), expected,
+        refuse_input(file, pointer, fmt::format("URI \"{:.60}\", outside the glTF's folder", uri), expected,
                      kFileRemedy);
-    return *source.folder / path;
+    return path;
+}
+
+std::filesystem::path file_of_uri(const GltfSource& source, const std::string& uri, const std::string& pointer) {
+    if (!source.folder)
+        refuse_input(source.file, pointer, fmt::format("an external file \"{:.60}\"", uri), "embedded data");
+    return *source.folder / relative_path_of_uri(source.file, uri, pointer);
 }
 
 GltfSource split_gltf(std::vector<std::byte> bytes, std::string file, std::optional<std::filesystem::path> folder) {

@@ -75,8 +75,10 @@ constexpr std::size_t padded_chunk(std::size_t bytes) {
 std::vector<std::byte> glb_beginning(std::string json, std::optional<std::size_t> binary_size, std::size_t other_size,
                                      const std::string& file);
 
-/// The path of the file that a URI names, in the glTF's folder or below it. `pointer` is the URI's owner. Throws Error
-/// (input).
+/// The path of the file that a URI of `file` names, from the glTF's folder, which it does not leave. `pointer` is the
+/// URI's owner. Throws Error (input).
+std::filesystem::path relative_path_of_uri(const std::string& file, const std::string& uri, const std::string& pointer);
+/// The same in the source's folder. Throws Error (input), also for a source without one.
 std::filesystem::path file_of_uri(const GltfSource& source, const std::string& uri, const std::string& pointer);
 
 /// Owned unless it is a part of the file.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <filesystem>
 #include <glm/mat4x4.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
@@ -124,9 +125,9 @@ struct ImportedCamera {
 /// ROWLAND_light_probe: the light in a box about a node.
 struct ImportedProbe {
     std::size_t node = 0;
-    glm::vec3 size_m{1.0F};  ///< of the box, along the node's axes and times its scale
-    float fade_m = 1.0F;     ///< beyond the box, over which its light gives way to other light
-    std::string uri;         ///< of the cooked probe, from the glTF's folder
+    glm::vec3 size_m{1.0F};      ///< of the box, along the node's axes and times its scale
+    float fade_m = 1.0F;         ///< beyond the box, over which its light gives way to other light
+    std::filesystem::path file;  ///< the cooked probe, from the glTF's folder
     /// The probe's payload, of cooked scenes only; equal probes are shared. Null: the file was not there.
     std::shared_ptr<const std::vector<std::byte>> cooked = {};
 };

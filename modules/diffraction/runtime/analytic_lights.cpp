@@ -29,7 +29,7 @@ glm::dmat3 xyz_to_kernel(const CookedMaterial& cooked, const glm::dmat3& xyz_to_
 /// What is kept for so many probes.
 constexpr std::size_t kKeptLobes = 16;
 
-/// The first that is `wanted`, moved to the front; else what `make` makes, in place of that which was not used for
+/// The first that is `wanted`, moved to the front; else what `make` returns, instead of that which was not used for
 /// longest.
 template <typename Lobes, typename Wanted, typename Make>
 const Lobes& last_used(std::vector<Lobes>& kept, const Wanted& wanted, const Make& make) {

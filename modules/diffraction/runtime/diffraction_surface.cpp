@@ -84,22 +84,17 @@ SurfaceState& state_of(ecs::World& world, ecs::Entity entity, render::ProbeSlot 
 
 /// Gives each slot the data that the object has for its probe, though the other slot had it.
 void take_probes(const render::LightMix& mix, SurfaceState& state) {
-    if (state.second && state.second->probe == mix.first && state.probe != mix.first) {
-        auto second = std::move(state.second);
-        std::swap(state, *second);
-        state.second = std::move(second);
-    } else if (!state.second && mix.has_second() && mix.second == state.probe) {
-        auto second = std::make_unique<SurfaceState>();
+    const bool of_other_slot =
+        state.second ? state.second->probe == mix.first : mix.has_second() && state.probe == mix.second;
+    if (of_other_slot) {
+        auto second = state.second ? std::move(state.second) : std::make_unique<SurfaceState>();
         std::swap(state, *second);
         state.second = std::move(second);
     }
     state.probe = mix.first;
-    if (!mix.has_second()) {
-        state.second.reset();
-    } else {
-        if (!state.second) state.second = std::make_unique<SurfaceState>();
-        state.second->probe = mix.second;
-    }
+    if (!mix.has_second()) return state.second.reset();
+    if (!state.second) state.second = std::make_unique<SurfaceState>();
+    state.second->probe = mix.second;
 }
 
 }  // namespace

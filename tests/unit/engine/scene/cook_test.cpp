@@ -135,6 +135,15 @@ TEST_F(ProbeScene, ACookedSceneHoldsTheProbesOfItsBoxes) {
                 HasSubstr("probe: \"a\"\nfile: a.probe\nsize: 4 3 5\nfade: 0.5\nbytes: 10\n"));
 }
 
+TEST_F(ProbeScene, AUriNamesItsFileDecoded) {
+    write_probe("a.probe", "light of a");
+    write_probe("b c.probe", "light of b");
+    const ImportedScene scene =
+        read_cooked_scene(cooked(write_scene(R"({"size_m": [1, 1, 1], "probe": "b%20c.probe"})")), "room.scene", {});
+    EXPECT_EQ(scene.probes.at(1).file, "b c.probe");  // which a capture writes
+    EXPECT_EQ(*scene.probes[1].cooked, bytes_of("light of b"));
+}
+
 TEST_F(ProbeScene, AMissingProbeIsLeftOutAndADependency) {
     write_probe("a.probe", "light of a");
     const std::filesystem::path source = write_scene(kSecondProbe);
