@@ -84,6 +84,11 @@ void add_options(CLI::App& app, Options& options) {
         ->check(finite(0.01, 10000.0));
     app.add_option("--grain", options.grain, "Film grain: the deviation of display values in mid-tones")
         ->check(finite(0.0, 0.5));
+    app.add_option(
+           "--gratings-ms", options.gratings_ms,
+           "Time of the GPU that all gratings may take in a frame; they are drawn by the cooked choices that give "
+           "the least error within it. Default: not limited")
+        ->check(finite(0.01, 100.0));
     app.add_flag("--dither", options.dither, "Hide the steps of 8-bit gradients");
     app.add_flag("--no-ambient-occlusion{false}", options.ambient_occlusion, "Do not darken corners and contacts");
     app.add_flag("--no-soft-shadows{false}", options.soft_shadows, "Give shadows sharp edges");

@@ -30,6 +30,7 @@ struct Options : app::CommonOptions {
     std::optional<float> focus_m;   ///< none: the view's target is in focus
     float grain = 0.0F;             ///< deviation of display values in mid-tones
     bool dither = false;
+    std::optional<double> gratings_ms;  ///< of the GPU, for all gratings of a frame; none: everything at its best
     bool ambient_occlusion = true;  ///< and contact shadows
     bool soft_shadows = true;
     bool local_reflections = true;               ///< of the table and of objects

@@ -98,6 +98,7 @@ Session::Session(const Options& options, const post::OcioConfig& config, glm::iv
       sheets_(sheets(options, scene_)) {
     play_.set_animation([this](const Play& play) { scene_.pose(play); });
     use_probe(probe_paths_[0]);
+    set_budget(options.gratings_ms.value_or(0.0));
     if (options.glare || scene_.sheet() != nullptr) look_through(1);
 }
 
@@ -129,6 +130,9 @@ void Session::set(const SettingEvent& event) {
             break;
         case Setting::FNumber:
             if (post.depth_of_field) post.depth_of_field->f_number = number();
+            break;
+        case Setting::GratingsMs:
+            set_budget(number());
             break;
         case Setting::Grain:
             if (post.grain) post.grain->strength = number();
@@ -237,6 +241,14 @@ void Session::show_probe() {
     scene_.show_floor(!probe_->dome);
     probe_version_ = probe_.version();
     ++probe_changes_;
+}
+
+void Session::set_budget(double gratings_ms) {
+    ecs::World& world = scene_.world();
+    if (world.alive(budget_)) world.destroy(budget_);
+    if (gratings_ms <= 0.0) return;
+    budget_ = world.create();
+    world.add(budget_, diffraction::FrameBudget{gratings_ms});
 }
 
 void Session::use_view(const std::string& view) {

@@ -20,6 +20,7 @@
 #include "engine/core/log.h"
 #include "engine/post/ocio_config.h"
 #include "engine/view/picture.h"
+#include "modules/diffraction/runtime/frame_budget.h"
 #include "modules/diffraction/runtime/map_cache.h"
 
 namespace rowland::demo {
@@ -71,12 +72,22 @@ class Session {
     void draw_from(const scene::Camera& camera, float seconds);
     /// What the user is told, newest last.
     const std::vector<Message>& messages() const { return messages_.all(); }
+    /// Null: there is no budget, or no frame since it was set.
+    const diffraction::FrameBudgetReport* budget_report() {
+        return scene_.world().find<diffraction::FrameBudgetReport>(budget_);
+    }
+    double gratings_ms() {
+        const auto* budget = scene_.world().find<diffraction::FrameBudget>(budget_);
+        return budget != nullptr ? budget->gratings_ms : 0.0;
+    }
     /// Why the picture does not show a file's present content; empty if it does.
     std::string failure() const;
 
  private:
     void set(const SettingEvent& setting);
     bool perform(Action action);
+    /// 0: none.
+    void set_budget(double gratings_ms);
     void use_view(const std::string& view);
     void look_through(std::size_t sheet);
     void set_look(Side side, const std::string& object, const std::string& look);
@@ -108,6 +119,7 @@ class Session {
     std::vector<Sheet> sheets_;
     std::size_t sheet_ = 0;  ///< that one looks through: one more than its index; 0: none
     std::vector<Action> screenshots_;
+    ecs::Entity budget_;  ///< has the FrameBudget, or none
 };
 
 /// What the options show, by the name that a recording stores.

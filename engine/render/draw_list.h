@@ -48,6 +48,7 @@ struct Draw {
         const gpu::Program* program = nullptr;          ///< null if it is not drawn in the main pass
         const gpu::Program* overlay_program = nullptr;  ///< MaterialType::overlay_program(), or null
         std::size_t block_offset = 0;                   ///< of its ObjectBlock, bytes
+        std::uint64_t kind = 0;                         ///< DrawControl::kind(); 0: its time is not measured
     };
     Lit first = {};
     Lit second = {};
@@ -78,7 +79,7 @@ UvTransform uv_transform(const scene::TextureTransform& transform);
 /// `part`: of the draw's light.
 ObjectBlock object_block(const Draw& draw, const glm::mat3& rec709_to_working, float part);
 
-/// By program and probe, and from front to back within one: few changes of state, little overdraw.
+/// By program, kind and probe, and from front to back within one: few changes of state, little overdraw.
 void sort_opaque(std::vector<const Draw*>& draws);
 
 /// The fixed-function state that draws a surface into a target of this size; none if no pixel may change.

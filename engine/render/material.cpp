@@ -53,6 +53,15 @@ void MaterialType::bind_overlay(ecs::World& /*world*/, ecs::Entity /*entity*/, P
     ROWLAND_CHECK(false, "bind_overlay() on a material type without overlay_program()");
 }
 
+std::uint64_t object_number(ecs::Entity entity) {
+    return (std::uint64_t{entity.index} << 32U) | entity.version;
+}
+
+ecs::Entity entity_of(std::uint64_t object_number) {
+    return {.index = static_cast<std::uint32_t>(object_number >> 32U),
+            .version = static_cast<std::uint32_t>(object_number)};
+}
+
 const MaterialType* owner_of(ecs::World& world, ecs::Entity entity,
                              std::span<const std::unique_ptr<MaterialType>> types, const std::string& file,
                              const std::string& json_pointer) {

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "engine/ecs/world.h"
+#include "engine/gpu/draw_meter.h"
 #include "engine/gpu/program.h"
 #include "engine/gpu/shader_library.h"
 #include "engine/gpu/texture.h"
@@ -97,6 +98,28 @@ struct LitEntity {
 /// Which of an entity's probes: one between two is drawn under each, and the pictures are added.
 enum class ProbeSlot { First, Second };
 
+/// How a material type keeps the draws of its entities within a time.
+class DrawControl {
+ public:
+    virtual ~DrawControl() = default;
+    DrawControl() = default;
+    DrawControl(const DrawControl&) = delete;
+    DrawControl& operator=(const DrawControl&) = delete;
+
+    /// What the draws of an earlier frame took; before MaterialType::update(), in frames that have news. Objects are
+    /// object_number() of their entities.
+    virtual void take(ecs::World& world, std::span<const gpu::MeteredRun> runs) = 0;
+    /// Draws of one kind should take the same time per sample. Not 0.
+    virtual std::uint64_t kind(ecs::World& world, ecs::Entity entity, ProbeSlot slot) const = 0;
+    /// An entity that has one probe is drawn twice under it, in both slots, the second with this part of the light,
+    /// more than 0: a fade from one picture to another. nullopt: once. Asked after MaterialType::update().
+    virtual std::optional<float> second_part(ecs::World& world, ecs::Entity entity) const = 0;
+};
+
+/// Of an entity in gpu::MeteredRun.
+std::uint64_t object_number(ecs::Entity entity);
+ecs::Entity entity_of(std::uint64_t object_number);
+
 class SurfaceTextures;
 
 /// A material extension of a scene, as attach() is given it.
@@ -150,6 +173,8 @@ class MaterialType {
     virtual void update(ecs::World& world, std::span<const FrameLight> lights, std::span<const LitEntity> seen) = 0;
     /// Changes in each update() after which an entity looks different, though neither it nor the light has moved.
     virtual std::uint64_t version() const { return 0; }
+    /// Null: its draws are not timed.
+    virtual DrawControl* draw_control() const { return nullptr; }
     /// Binds what an owned entity's program reads. The program is in use.
     virtual void bind(ecs::World& world, ecs::Entity entity, ProbeSlot slot, const gpu::Program& program) const = 0;
     /// The same for overlay_program().

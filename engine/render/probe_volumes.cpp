@@ -116,7 +116,7 @@ void Renderer::choose_probes(Frame& frame) {
         if ((draw.features & feature::kUnlit) != 0) continue;
         key_lights = key_lights || (draw.features & feature::kKeyLights) != 0;
         draw.light = light_at(0.5F * (draw.bounds.minimum + draw.bounds.maximum), volumes_.boxes);
-        if (draw.light.is_local()) draw.features |= feature::kLocalProbe;
+        if (draw.light.is_local()) draw.features |= feature::kLocalProbe | feature::kLightPart;
         frame.lit[draw.light.first] = true;
         if (draw.light.has_second()) frame.lit[draw.light.second] = true;
     }

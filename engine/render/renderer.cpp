@@ -113,6 +113,7 @@ void Renderer::render(ecs::World& world, const scene::Camera& camera, const gpu:
     frame.view_projection = camera.projection(frame.aspect) * camera.view();
     report_ = {};
 
+    take_metered(world);
     update_light(world);
     update_reflection(world, frame);
     frame.list = gather_draws(world, types_, light_features(frame));
@@ -129,13 +130,13 @@ void Renderer::render(ecs::World& world, const scene::Camera& camera, const gpu:
         const gpu::PassTimes::Scope scope(times_, "opaque");
         target.bind();
         target.clear_depth();
-        draw_pass(world, frame, frame.opaque);
+        draw_pass(world, frame, frame.opaque, meter_ ? &*meter_ : nullptr);
     }
     draw_sky(frame);
     if (!frame.blended.empty()) {
         const gpu::PassTimes::Scope scope(times_, "blend");
         target.bind();
-        draw_pass(world, frame, frame.blended);
+        draw_pass(world, frame, frame.blended, meter_ ? &*meter_ : nullptr);
     }
     report_.programs = static_cast<int>(programs_.size());
     if (times_ != nullptr) report_.passes = times_->latest();
@@ -176,6 +177,25 @@ void Renderer::update_materials(ecs::World& world, Frame& frame) {
     if (frame.shading == Shading::Unlit) return;
     if (mirrors) seen.insert(seen.end(), others.begin(), others.end());
     for (const auto& type : types_) type->update(world, frame_lights_, seen);
+    for (Draw& draw : frame.list.draws) {
+        if (draw.type == nullptr || draw.type->draw_control() == nullptr) continue;
+        draw.features |= feature::kLightPart;
+        if (draw.light.has_second()) continue;
+        const std::optional<float> part = draw.type->draw_control()->second_part(world, draw.entity);
+        if (part) draw.light = {.first = draw.light.first, .second = draw.light.first, .second_part = *part};
+    }
+}
+
+/// Hands what was measured to the types that asked for it.
+void Renderer::take_metered(ecs::World& world) {
+    const auto is_controlled = [](const auto& type) { return type->draw_control() != nullptr; };
+    if (std::ranges::none_of(types_, is_controlled)) return meter_.reset();
+    if (!meter_) meter_.emplace();
+    meter_->begin_frame();
+    const std::optional<std::vector<gpu::MeteredRun>> runs = meter_->take_finished();
+    if (!runs) return;
+    for (const auto& type : types_)
+        if (DrawControl* control = type->draw_control()) control->take(world, *runs);
 }
 
 void Renderer::select_draws(ecs::World& world, Frame& frame) {
@@ -192,6 +212,8 @@ void Renderer::select_draws(ecs::World& world, Frame& frame) {
             Draw::Lit& lit = slot == ProbeSlot::First ? draw.first : draw.second;
             lit.program = &program_of(world, draw, slot);
             lit.overlay_program = overlay_program_of(world, draw, slot);
+            const DrawControl* control = draw.type != nullptr ? draw.type->draw_control() : nullptr;
+            if (control != nullptr) lit.kind = control->kind(world, draw.entity, slot);
             compile_later_programs(world, draw, slot);
         }
         if (frame.occlusion && (draw.features & feature::kAlphaBlend) == 0)
@@ -340,21 +362,26 @@ void Renderer::bind_surface(const Draw& draw) const {
         if ((draw.features & map.bit) != 0) (draw.material->*map.texture).texture->bind(map.unit);
 }
 
-void Renderer::draw_pass(ecs::World& world, const Frame& frame, const std::vector<const Draw*>& draws) {
+void Renderer::draw_pass(ecs::World& world, const Frame& frame, const std::vector<const Draw*>& draws,
+                         gpu::DrawMeter* meter) {
     for (const Draw* draw : draws) {
         const auto state = state_of(*draw, frame.size);
         if (!state) continue;
         gpu::apply(*state);
-        draw_lit(world, frame, *draw, ProbeSlot::First);
+        draw_lit(world, frame, *draw, ProbeSlot::First, meter);
         if (!draw->light.has_second()) continue;
         gpu::apply(adding(*state));
-        draw_lit(world, frame, *draw, ProbeSlot::Second);
+        draw_lit(world, frame, *draw, ProbeSlot::Second, meter);
     }
+    if (meter != nullptr) meter->end_run();
 }
 
-void Renderer::draw_lit(ecs::World& world, const Frame& frame, const Draw& draw, ProbeSlot slot) const {
+void Renderer::draw_lit(ecs::World& world, const Frame& frame, const Draw& draw, ProbeSlot slot,
+                        gpu::DrawMeter* meter) const {
     const bool second = slot == ProbeSlot::Second;
     const Draw::Lit& lit = second ? draw.second : draw.first;
+    if (meter != nullptr && lit.kind == 0) meter->end_run();
+    const gpu::DrawMeter::Scope scope(lit.kind != 0 ? meter : nullptr, lit.kind, object_number(draw.entity));
     bind_probe(frame, second ? draw.light.second : draw.light.first);
     frame_data_.bind_uniform(kObjectBinding, lit.block_offset, sizeof(ObjectBlock));
     lit.program->use();

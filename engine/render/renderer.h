@@ -17,6 +17,7 @@
 #include "engine/ecs/world.h"
 #include "engine/gpu/buffer.h"
 #include "engine/gpu/context.h"
+#include "engine/gpu/draw_meter.h"
 #include "engine/gpu/framebuffer.h"
 #include "engine/gpu/pass_times.h"
 #include "engine/gpu/texture.h"
@@ -135,8 +136,11 @@ class Renderer {
     void update_staleness(const Frame& around, ObjectReflection& reflection) const;
     void draw_surroundings(ecs::World& world, Frame& around, ObjectReflection& reflection);
     void draw_outline(const Draw& draw, const gpu::Program& program) const;
-    void draw_pass(ecs::World& world, const Frame& frame, const std::vector<const Draw*>& draws);
-    void draw_lit(ecs::World& world, const Frame& frame, const Draw& draw, ProbeSlot slot) const;
+    /// `meter`: of the draws of types that have a DrawControl; null: they are not measured.
+    void draw_pass(ecs::World& world, const Frame& frame, const std::vector<const Draw*>& draws,
+                   gpu::DrawMeter* meter = nullptr);
+    void draw_lit(ecs::World& world, const Frame& frame, const Draw& draw, ProbeSlot slot, gpu::DrawMeter* meter) const;
+    void take_metered(ecs::World& world);
     void draw_sky(const Frame& frame);
     void bind_surface(const Draw& draw) const;
     const gpu::Program& program_of(ecs::World& world, const Draw& draw, ProbeSlot slot);
@@ -172,6 +176,7 @@ class Renderer {
     SceneLights lights_;
     bool warned_dropped_lights_ = false;
     gpu::PassTimes* times_ = nullptr;
+    std::optional<gpu::DrawMeter> meter_;  ///< if a type has a DrawControl
     FrameReport report_;
 };
 

@@ -9,7 +9,7 @@ namespace rowland::render {
 
 namespace {
 
-constexpr std::array<std::pair<SurfaceFeatures, const char*>, 21> kSwitches = {
+constexpr std::array<std::pair<SurfaceFeatures, const char*>, 22> kSwitches = {
     {{feature::kColours, "HAS_COLOURS"},
      {feature::kSkinned, "SKINNED"},
      {feature::kTextureTransformExtension, "TEXTURE_TRANSFORM"},
@@ -29,6 +29,7 @@ constexpr std::array<std::pair<SurfaceFeatures, const char*>, 21> kSwitches = {
      {feature::kObjectReflections, "OBJECT_REFLECTIONS"},
      {feature::kRoughReflections, "ROUGH_REFLECTIONS"},
      {feature::kLocalProbe, "LOCAL_PROBE"},
+     {feature::kLightPart, "LIGHT_PART"},
      {feature::kFromEye, "FROM_EYE"},
      {feature::kScratches, "WEAR_SCRATCHES"}}};
 

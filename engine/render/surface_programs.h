@@ -48,10 +48,11 @@ inline constexpr SurfaceFeatures kFromEye = 1U << 30U;  ///< of a surface's outl
 inline constexpr SurfaceFeatures kObjectReflections = 1U << 31U;
 inline constexpr SurfaceFeatures kScratches = 1ULL << 32U;   ///< in the map of wear
 inline constexpr SurfaceFeatures kLocalProbe = 1ULL << 33U;  ///< of a box, or of two probes
+inline constexpr SurfaceFeatures kLightPart = 1ULL << 34U;   ///< a draw may give a part of the light
 inline constexpr SurfaceFeatures kEffects =
     kAmbientOcclusion | kSoftShadows | kLocalReflections | kObjectReflections | kRoughReflections;
-inline constexpr SurfaceFeatures kLights =
-    kDirectionalLights | kSeveralDirectionalLights | kPunctualLights | kShadows | kKeyLights | kLocalProbe | kEffects;
+inline constexpr SurfaceFeatures kLights = kDirectionalLights | kSeveralDirectionalLights | kPunctualLights | kShadows |
+                                           kKeyLights | kLocalProbe | kLightPart | kEffects;
 }  // namespace feature
 
 /// A texture of a surface. Its index in kSurfaceMaps is that of its transform in ObjectBlock.

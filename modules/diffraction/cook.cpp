@@ -92,6 +92,17 @@ std::vector<MeasuredViews> views_under(std::span<const BudgetProbe> probes, cons
     return views;
 }
 
+/// The members of a "quality" that pin its representation.
+nlohmann::json pinned_settings(const nlohmann::json& quality) {
+    const RepresentationInfo& info = *find_representation(quality.at("representation").get<std::string>());
+    nlohmann::json settings{{"representation", info.name}};
+    if (quality.contains("key_lights") && quality["key_lights"].is_number())
+        settings["key_lights"] = quality["key_lights"];
+    for (const SettingInfo& setting : info.settings)
+        if (quality.contains(setting.key)) settings[setting.key] = quality[setting.key];
+    return settings;
+}
+
 /// Chooses the cheapest settings within the material's max_error, and pins them.
 CookedMaterial choose(cook::Context& context, MaterialSource& source, const ChoiceRules& rules) {
     const std::string file = context.source().string();
@@ -147,28 +158,39 @@ std::vector<std::byte> cook_extension(cook::Context& context, const cook::SceneE
     Quality& quality = source.material.quality;
     if (!asked.contains("surface") && !is_flat(extension.scene, extension.material))
         quality.surface = SurfaceShape::Curved;
+    const auto suits_texture = [&](const Quality& candidate) {
+        Material with = source.material;
+        with.quality = candidate;
+        return !groove_refusal(with, *pitches);
+    };
+    ChoiceRules rules{.pointer = extension.pointer, .must_meet_budget = asked.contains("max_error")};
+    if (pitches) rules.allows = suits_texture;
     CookedMaterial cooked;
     if (quality.pinned) {
         cooked.material = source.material;
         const std::vector<BudgetProbe> probes = read_probes(context, quality);
         std::vector<MeasuredViews> views = views_under(probes, source.material);
         for (MeasuredViews& few : views) few.parts.resize(1);  // the error of what is pinned decides nothing
-        cooked.measured = measure_pinned(source.material, probes, views);
+        if (auto record = measure_pinned(source.material, pinned_settings(asked), probes, views, rules.allows)) {
+            cooked.measured = std::move(record->measured);
+            cooked.cheaper = std::move(record->cheaper);
+        }
     } else {
-        ChoiceRules rules{.pointer = extension.pointer, .must_meet_budget = asked.contains("max_error")};
-        if (pitches)
-            rules.allows = [&](const Quality& candidate) {
-                Material with = source.material;
-                with.quality = candidate;
-                return !groove_refusal(with, *pitches);
-            };
         cooked = choose(context, source, rules);
     }
     if (quality.pinned || pitches) {
-        std::optional<BudgetRecord> measured = std::move(cooked.measured);
-        grating.material = std::move(cooked.material);
-        cooked = bake_material(drawable_material(grating, of_texture, file, extension.pointer));
-        cooked.measured = std::move(measured);
+        CookedMaterial measured = std::move(cooked);
+        const auto bake_drawn = [&](const Quality& drawn) {
+            grating.material = measured.material;
+            grating.material.quality = drawn;
+            return bake_material(drawable_material(grating, of_texture, file, extension.pointer));
+        };
+        cooked = bake_drawn(measured.material.quality);
+        cooked.measured = std::move(measured.measured);
+        cooked.cheaper = std::move(measured.cheaper);
+        if (pitches)
+            for (CookedRung& rung : cooked.cheaper)
+                if (rung.baked) rung.baked = std::make_shared<const CookedMaterial>(bake_drawn(rung.quality));
     }
     return write_gltf_tables(source.json, cooked, pitches.value_or(GroovePitches{}));
 }

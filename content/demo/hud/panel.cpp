@@ -205,6 +205,13 @@ void gratings_panel(const Panel& panel) {
         for (const Object& object : objects_of(panel.session.play().world(), gratings)) object_row(panel, object);
         ImGui::EndTable();
     }
+    slider(panel, Setting::GratingsMs, "GPU time", static_cast<float>(panel.session.gratings_ms()),
+           panel.session.gratings_ms() > 0.0 ? "%.1f ms" : "not limited");
+    if (const diffraction::FrameBudgetReport* report = panel.session.budget_report()) {
+        ImGui::Text("%.2f ms taken, %.2f expected", report->spent_ms, report->predicted_ms);
+        ImGui::Text("%d of %d at their best, %d changing; error × %.2f, at best × %.2f", report->at_best,
+                    report->objects, report->fading, report->error, report->least_error);
+    }
     ImGui::TextDisabled("tables %s, process %s", format_bytes(bytes_of_tables(comparison, gratings)).c_str(),
                         format_bytes(resident_set_bytes()).c_str());
 }

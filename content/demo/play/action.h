@@ -64,7 +64,20 @@ std::vector<HelpLine> help_lines();
 std::string help_text();
 
 /// What the user sets to a value, say with a slider; an Action only steps to the next one.
-enum class Setting { Exposure, Bloom, Vignette, FNumber, Grain, Wipe, WipeLine, Probe, View, LeftLook, RightLook };
+enum class Setting {
+    Exposure,
+    Bloom,
+    Vignette,
+    FNumber,
+    Grain,
+    GratingsMs,
+    Wipe,
+    WipeLine,
+    Probe,
+    View,
+    LeftLook,
+    RightLook
+};
 
 /// The name and values of a setting. One without a range is a text.
 struct SettingKind {

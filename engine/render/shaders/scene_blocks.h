@@ -41,7 +41,7 @@ ROWLAND_BLOCK(1, ObjectBlock) {
                               // roughness of the clear coat
     vec4 map_strength;        // x: normal scale; y: occlusion strength; z: sign of object_to_world's determinant;
                               // w: the object's first joint matrix
-    vec4 light_part;          // x: of the surface's light that this draw gives; under LOCAL_PROBE
+    vec4 light_part;          // x: of the surface's light that this draw gives; under LIGHT_PART
     vec4 uv_linear[6];  // of each map (base colour, metallic-roughness, normal, occlusion, emissive, wear): the 2x2
                         // part of its texture transform, column after column
     vec4 uv_offset[6];  // xy

@@ -278,7 +278,7 @@ void write_surface(MaterialTerms terms) {
 #else
     radiance = vec4(sum, 1.0);
 #endif
-#ifdef LOCAL_PROBE
+#ifdef LIGHT_PART
     radiance.rgb *= light_part.x;
 #endif
     if (shadow.z > 0.0) radiance = rounded_to_half(radiance);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 #include <iterator>
 #include <map>
@@ -22,6 +23,9 @@
 namespace rowland::diffraction {
 
 namespace {
+
+/// Of rungs whose tables are the material's own.
+constexpr std::uint32_t kOwnTables = 0xffffffff;
 
 /// More than a material can name.
 constexpr std::uint32_t kMostNamedTexts = 16;
@@ -170,6 +174,20 @@ CookedMaterial bake_material(const Material& material) {
     return cooked;
 }
 
+CookedMaterial as_rung(const CookedMaterial& cooked, const CookedRung& rung) {
+    CookedMaterial drawn = cooked;
+    drawn.cheaper.clear();
+    drawn.material.quality = rung.quality;
+    drawn.measured = rung.measured;
+    if (rung.baked) drawn.tables = rung.baked->tables;
+    if (!drawn.reflected) return drawn;
+    auto side = std::make_shared<CookedMaterial>(*drawn.reflected);
+    side->material.quality = rung.quality;
+    if (rung.baked) side->tables = rung.baked->reflected->tables;
+    drawn.reflected = std::move(side);
+    return drawn;
+}
+
 std::shared_ptr<const CookedMaterial> bake_reflected_side(const Material& material) {
     const std::optional<Grating> side = reflected_side(material.grating);
     if (!side) return nullptr;
@@ -198,6 +216,62 @@ CookedMaterial cook(const nlohmann::json& json, const std::string& file, const M
 
 namespace {
 
+/// Tables that several rungs share are written with the first of them.
+void write_rungs(const CookedMaterial& cooked, ByteWriter& writer) {
+    std::vector<const CookedMaterial*> written;
+    writer.value(static_cast<std::uint32_t>(cooked.cheaper.size()));
+    for (const CookedRung& rung : cooked.cheaper) {
+        writer.text(rung.settings.dump());
+        writer.text(write_budget_record(rung.measured));
+        const auto found = std::ranges::find(written, rung.baked.get());
+        writer.value(rung.baked ? static_cast<std::uint32_t>(found - written.begin()) : kOwnTables);
+        if (!rung.baked || found != written.end()) continue;
+        written.push_back(rung.baked.get());
+        write_tables(rung.baked->tables, writer);
+        if (rung.baked->reflected) write_tables(rung.baked->reflected->tables, writer);
+    }
+}
+
+/// With the kernel and the grating of `like`.
+std::shared_ptr<const CookedMaterial> read_rung_tables(ByteReader& reader, const Quality& quality,
+                                                       const CookedMaterial& like) {
+    const auto read = [&](const Material& material) {
+        auto side = std::make_shared<CookedMaterial>();
+        side->material = material;
+        side->material.quality = quality;
+        side->tables = read_tables(reader, representation(side->material));
+        return side;
+    };
+    const auto baked = read(like.material);
+    if (like.reflected) baked->reflected = read(like.reflected->material);
+    return baked;
+}
+
+void read_rungs(ByteReader& reader, const nlohmann::json& json, const ReadNamed& read, CookedMaterial& cooked) {
+    const auto count = reader.value<std::uint32_t>();
+    if (count >= kMostRungs) reader.fail(fmt::format("{} rungs", count + 1), fmt::format("at most {}", kMostRungs));
+    std::vector<std::shared_ptr<const CookedMaterial>> tables;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        CookedRung rung{
+            .settings = parse_json(reader.text(), reader.file()), .quality = {}, .baked = {}, .measured = {}};
+        nlohmann::json with = json;
+        with["quality"] = rung.settings;
+        rung.quality = parse_material(with, reader.file(), read).quality;
+        if (!rung.quality.pinned) reader.fail(rung.settings.dump(), "a representation");
+        rung.quality.illuminant = cooked.material.quality.illuminant;
+        rung.measured = parse_budget_record(reader.text(), reader.file());
+        const auto index = reader.value<std::uint32_t>();
+        if (index > tables.size() && index != kOwnTables)
+            reader.fail(fmt::format("tables {}", index), fmt::format("at most {}", tables.size()));
+        if (index == tables.size()) tables.push_back(read_rung_tables(reader, rung.quality, cooked));
+        if (index != kOwnTables) rung.baked = tables[index];
+        const BakedTables& drawn = rung.baked ? rung.baked->tables : cooked.tables;
+        if (&info(drawn) != &info(*rung.quality.pinned))
+            reader.fail(fmt::format("tables of {}", info(drawn).name), "those of the rung's representation");
+        cooked.cheaper.push_back(std::move(rung));
+    }
+}
+
 void write_material(const nlohmann::json& json, const CookedMaterial& cooked, ByteWriter& writer) {
     writer.text(json.dump());
     write_named(named_texts(json, cooked.material), writer);
@@ -205,6 +279,7 @@ void write_material(const nlohmann::json& json, const CookedMaterial& cooked, By
     write_baked(cooked, writer);
     if (cooked.reflected) write_baked(*cooked.reflected, writer);
     writer.text(cooked.measured ? write_budget_record(*cooked.measured) : std::string());
+    write_rungs(cooked, writer);
 }
 
 /// `pitches`: of the groove texture that the tables are for; null: none.
@@ -212,7 +287,8 @@ CookedMaterial read_material(ByteReader& reader, const GroovePitches* pitches) {
     const std::string& file = reader.file();
     CookedMaterial cooked;
     const nlohmann::json json = parse_json(reader.text(), file);
-    cooked.material = parse_material(json, file, read_among(read_named(reader), file));
+    const ReadNamed named = read_among(read_named(reader), file);
+    cooked.material = parse_material(json, file, named);
     read_efficiencies(reader, cooked.material.grating);
     if (pitches != nullptr) {
         if (groove_refusal(cooked.material, *pitches)) reader.fail("a groove texture", "none for this representation");
@@ -227,6 +303,7 @@ CookedMaterial read_material(ByteReader& reader, const GroovePitches* pitches) {
         cooked.reflected = std::move(reflected);
     }
     if (const std::string record = reader.text(); !record.empty()) cooked.measured = parse_budget_record(record, file);
+    read_rungs(reader, json, named, cooked);
     if (reader.remaining() != 0) reader.fail(fmt::format("{} bytes too many", reader.remaining()), "the end");
     return cooked;
 }
@@ -333,6 +410,9 @@ std::string describe(const CookedMaterial& cooked) {
         lines.add(name.c_str(), value);
     add_cost(shading_cost(cooked.tables, cooked.material.quality.map_at_vertices), lines);
     if (cooked.measured) add_record(*cooked.measured, lines);
+    for (const CookedRung& rung : cooked.cheaper)
+        lines.add("cheaper", fmt::format("{:.4g} fetches per pixel, error {:.5f}: {}", rung.measured.price,
+                                         rung.measured.largest_error(), rung.settings.dump()));
     lines.add("zero_order_luminance", fmt::format("{:.4f}", weights.mirror.y));
     lines.add("base_luminance", fmt::format("{:.4f}", weights.base.y));
     return lines.take();

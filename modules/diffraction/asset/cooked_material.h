@@ -19,7 +19,18 @@
 namespace rowland::diffraction {
 
 inline constexpr const char* kMaterialAssetType = "material";
-inline constexpr std::uint32_t kMaterialAssetVersion = 9;
+inline constexpr std::uint32_t kMaterialAssetVersion = 10;
+
+struct CookedMaterial;
+
+/// A cheaper choice for a material's grating, with a larger error: what a frame may draw instead.
+struct CookedRung {
+    nlohmann::json settings;  ///< members of the material's "quality"
+    Quality quality;
+    /// With its tables and its other side alone. Rungs that differ in key lights share it; null: the material's own.
+    std::shared_ptr<const CookedMaterial> baked;
+    BudgetRecord measured;
+};
 
 /// A material with its baked tables.
 struct CookedMaterial {
@@ -29,7 +40,14 @@ struct CookedMaterial {
     glm::dmat3 zero_order_xyz{0.0};          ///< ColourKernel::zero_order_xyz()
     std::optional<BudgetRecord> measured{};  ///< if the representation was chosen for max_error
     std::shared_ptr<const CookedMaterial> reflected = nullptr;  ///< reflected_side(), with the same quality; null: none
+    std::vector<CookedRung> cheaper{};                          ///< the cheapest first; none if nothing was measured
 };
+
+/// The most rungs, the material itself included.
+inline constexpr std::size_t kMostRungs = 6;
+
+/// The material as one of its rungs draws it.
+CookedMaterial as_rung(const CookedMaterial& cooked, const CookedRung& rung);
 
 /// The material of reflected_side(), baked as the other side is; null without one.
 std::shared_ptr<const CookedMaterial> bake_reflected_side(const Material& material);
@@ -57,8 +75,8 @@ using NamedTexts = std::map<std::string, std::string>;
 NamedTexts named_texts(const nlohmann::json& json, const Material& material);
 
 /// The payload of a cooked material: the source as compact JSON with the chosen representation pinned, the CSV files
-/// that it names, the kernel, the representation's number and tables, those of a sheet's reflected side, and the record
-/// of the choice (else empty text). It needs no other file.
+/// that it names, the kernel, the representation's number and tables, those of a sheet's reflected side, the record of
+/// the choice (else empty text), and the cheaper rungs. It needs no other file.
 std::vector<std::byte> write_cooked_material(const nlohmann::json& json, const CookedMaterial& cooked);
 
 /// Inverse of write_cooked_material for untrusted bytes. Throws Error (input).

@@ -75,7 +75,7 @@ std::vector<MeasuredProbe> parse_probes(JsonReader& json) {
 /// What max_error is, and the probes and the surface it is measured on, if the cooker chooses the representation.
 void parse_measure(JsonReader& json, Quality& quality) {
     quality.measure = read_error_measure(json);
-    if (quality.measure == ErrorMeasure::DeltaE && !json.has("max_error")) quality.max_error = kDefaultDeltaE;
+    if (!json.has("max_error")) quality.max_error = default_max_error(quality.measure);
     if (json.has("probes")) quality.probes = parse_probes(json);
     if (json.choice_or("surface", "flat", {"flat", "curved"}) == "curved") quality.surface = SurfaceShape::Curved;
 }
@@ -102,7 +102,7 @@ void read_key_lights(JsonReader& json, const RepresentationInfo& info, Quality& 
         quality.key_lights = any ? lighting::kMaximumKeyLights : 0;
         return;
     }
-    const int least = always ? 1 : 0;
+    const int least = always && &info != &DirectSettings::info() ? 1 : 0;
     quality.key_lights =
         static_cast<int>(json.integer_or("key_lights", quality.key_lights, least, lighting::kMaximumKeyLights));
     json.also_allows("key_lights", always ? R"({"const": true})" : R"({"type": "boolean"})");
@@ -223,6 +223,10 @@ const char* surface_shape_name(SurfaceShape surface) {
 
 const char* error_measure_name(ErrorMeasure measure) {
     return kMeasureNames[static_cast<std::size_t>(measure)];
+}
+
+double default_max_error(ErrorMeasure measure) {
+    return measure == ErrorMeasure::DeltaE ? kDefaultDeltaE : Quality().max_error;
 }
 
 ErrorMeasure read_error_measure(JsonReader& json) {

@@ -48,6 +48,8 @@ const char* surface_shape_name(SurfaceShape surface);
 
 /// "relative_rms", "delta_e" or "hdr_flip".
 const char* error_measure_name(ErrorMeasure measure);
+/// The max_error of a material that states none.
+double default_max_error(ErrorMeasure measure);
 /// Reads the member "measure"; the default is "relative_rms". Throws Error (input).
 ErrorMeasure read_error_measure(JsonReader& json);
 

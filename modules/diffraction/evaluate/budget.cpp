@@ -49,6 +49,33 @@ std::vector<int> key_light_counts(int most) {
     return counts;
 }
 
+/// The rungs of the front, but for those that save less than a sixth of the price of the next one.
+std::vector<CookedRung> rungs_below(const MeasuredChoice& top, std::span<const MeasuredChoice> measured,
+                                    const Material& material, std::span<const BudgetProbe> probes,
+                                    std::span<const MeasuredViews> views) {
+    constexpr double kWorthwhile = 5.0 / 6.0;
+    std::vector<const MeasuredChoice*> front;
+    for (const MeasuredChoice& choice : measured)
+        if (choice.price < top.price && choice.errors.size() == probes.size() && std::isfinite(choice.error()) &&
+            on_front(choice, measured))
+            front.push_back(&choice);
+    std::ranges::sort(front, std::greater<>(), &MeasuredChoice::price);
+    std::vector<CookedRung> rungs;
+    double next_price = top.price;
+    for (const MeasuredChoice* choice : front) {
+        const bool cheapest = choice == front.back() && choice->price < next_price;
+        if (choice->price > kWorthwhile * next_price && !cheapest) continue;
+        if (rungs.size() + 2 == kMostRungs && !cheapest) continue;
+        next_price = choice->price;
+        rungs.push_back({.settings = choice->settings,
+                         .quality = choice->quality,
+                         .baked = choice->baked == top.baked ? nullptr : choice->baked,
+                         .measured = record_of(*choice, material, probes, views)});
+    }
+    std::ranges::reverse(rungs);
+    return rungs;
+}
+
 }  // namespace
 
 std::vector<nlohmann::json> budget_candidates(const Grating& grating, SurfaceShape surface, int key_light_limit) {
@@ -69,26 +96,42 @@ std::vector<nlohmann::json> budget_candidates(const Grating& grating, SurfaceSha
     return list;
 }
 
+namespace {
+
+/// Those that the rules of a choice allow.
+std::vector<nlohmann::json> allowed(std::vector<nlohmann::json> settings, const Grating& grating,
+                                    const std::function<bool(const Quality&)>& allows) {
+    if (!allows) return settings;
+    std::erase_if(settings, [&](const nlohmann::json& candidate) {
+        const auto suited = suited_quality(candidate, grating);
+        const auto* quality = std::get_if<Quality>(&suited);
+        return quality == nullptr || !allows(*quality);
+    });
+    return settings;
+}
+
+int most_key_lights(std::span<const BudgetProbe> probes) {
+    return std::ranges::max(probes, {}, &BudgetProbe::key_lights).key_lights;
+}
+
+}  // namespace
+
 BudgetChoice choose_representation(const Material& material, std::span<const BudgetProbe> probes,
                                    std::span<const MeasuredViews> views, const std::string& file,
                                    const ChoiceRules& rules) {
     ROWLAND_CHECK(!probes.empty() && views.size() == probes.size(), "an error needs light and views to be measured on");
     const double max_error = material.quality.max_error;
-    const int most = std::ranges::max(probes, {}, &BudgetProbe::key_lights).key_lights;
-    std::vector<nlohmann::json> settings = budget_candidates(material.grating, material.quality.surface, most);
-    if (rules.allows)
-        std::erase_if(settings, [&](const nlohmann::json& candidate) {
-            const auto suited = suited_quality(candidate, material.grating);
-            const auto* quality = std::get_if<Quality>(&suited);
-            return quality == nullptr || !rules.allows(*quality);
-        });
+    std::vector<nlohmann::json> settings =
+        budget_candidates(material.grating, material.quality.surface, most_key_lights(probes));
+    settings.push_back({{"representation", "direct"}, {"key_lights", 0}});  // for the last rung alone
     std::unique_ptr<Progress> progress;
     const SearchState found = search({.material = material,
                                       .probes = probes,
                                       .views = views,
                                       .error = error_function(material.quality.measure, material.quality.surface),
-                                      .settings = std::move(settings),
-                                      .good_enough = max_error},
+                                      .settings = allowed(std::move(settings), material.grating, rules.allows),
+                                      .good_enough = max_error,
+                                      .cheaper = true},
                                      [&](const SearchState& state) {
                                          if (!progress)
                                              progress =
@@ -108,6 +151,7 @@ BudgetChoice choose_representation(const Material& material, std::span<const Bud
     BudgetChoice choice{best.settings, *best.baked};
     choice.cooked.material.quality = best.quality;
     choice.cooked.measured = record_of(best, material, probes, views);
+    choice.cooked.cheaper = rungs_below(best, found.measured, material, probes, views);
     if (const double checked = choice.cooked.measured->largest_error();
         best.error() <= max_error && checked > max_error)
         log_warning("{}: {}: {:.3g} at views that did not decide, {} asked for: {}", file, pointer, checked, max_error,
@@ -115,19 +159,32 @@ BudgetChoice choose_representation(const Material& material, std::span<const Bud
     return choice;
 }
 
-std::optional<BudgetRecord> measure_pinned(const Material& material, std::span<const BudgetProbe> probes,
-                                           std::span<const MeasuredViews> views) {
+std::optional<PinnedRecord> measure_pinned(const Material& material, const nlohmann::json& settings,
+                                           std::span<const BudgetProbe> probes, std::span<const MeasuredViews> views,
+                                           const std::function<bool(const Quality&)>& allows) {
+    std::vector<nlohmann::json> cheaper;
+    const int keys_of_pinned = std::min(most_key_lights(probes), material.quality.key_lights);
+    for (nlohmann::json quality :
+         {settings, parse_method("arc/bands=5/rank=8").quality, parse_method("direct").quality}) {
+        if (quality["representation"] == "streak") continue;  // its map holds the key lights
+        for (const int keys : key_light_counts(keys_of_pinned)) {
+            quality["key_lights"] = keys;
+            cheaper.push_back(quality);
+        }
+    }
     const SearchState found = search({.material = material,
                                       .probes = probes,
                                       .views = views,
                                       .error = error_function(material.quality.measure, material.quality.surface),
-                                      .settings = {},
-                                      .first = nlohmann::json::object()},
+                                      .settings = allowed(std::move(cheaper), material.grating, allows),
+                                      .first = settings,
+                                      .cheaper = true},
                                      [](const SearchState&) {});
-    BudgetRecord record = record_of(found.measured.front(), material, probes, views);
+    const MeasuredChoice& pinned = found.measured.front();
+    BudgetRecord record = record_of(pinned, material, probes, views);
     record.max_error = 0.0;
     if (!std::isfinite(record.largest_error())) return std::nullopt;
-    return record;
+    return PinnedRecord{record, rungs_below(pinned, found.measured, material, probes, views)};
 }
 
 }  // namespace rowland::diffraction

@@ -18,7 +18,7 @@ std::vector<nlohmann::json> budget_candidates(const Grating& grating, SurfaceSha
 /// A representation chosen for a material.
 struct BudgetChoice {
     nlohmann::json settings;  ///< of budget_candidates()
-    CookedMaterial cooked;    ///< baked with them, and with the record of what was measured
+    CookedMaterial cooked;    ///< baked with them, with the record of what was measured, and with the cheaper rungs
 };
 
 /// What a choice is bound by, besides the budget.
@@ -37,8 +37,15 @@ BudgetChoice choose_representation(const Material& material, std::span<const Bud
                                    std::span<const MeasuredViews> views, const std::string& file,
                                    const ChoiceRules& rules = {});
 
-/// The errors of the representation that the material pins, under each probe; nullopt where the reference is black.
-std::optional<BudgetRecord> measure_pinned(const Material& material, std::span<const BudgetProbe> probes,
-                                           std::span<const MeasuredViews> views);
+/// What is measured of a material that pins its representation.
+struct PinnedRecord {
+    BudgetRecord measured;
+    std::vector<CookedRung> cheaper;
+};
+/// `settings`: the members of the material's "quality" that pin the representation. The cheaper rungs are the same with
+/// fewer key lights, an arc table, and key lights alone. nullopt where the reference is black. `allows`: see ChoiceRules.
+std::optional<PinnedRecord> measure_pinned(const Material& material, const nlohmann::json& settings,
+                                           std::span<const BudgetProbe> probes, std::span<const MeasuredViews> views,
+                                           const std::function<bool(const Quality&)>& allows = {});
 
 }  // namespace rowland::diffraction

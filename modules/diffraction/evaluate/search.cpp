@@ -74,10 +74,7 @@ class Search {
  public:
     Search(const SearchQuery& query, const std::function<void(const SearchState&)>& report, const std::stop_token& stop)
         : query_(query), report_(report), stop_(stop), spectra_(query.material.quality.illuminant) {
-        const ColourKernel kernel(query.material.grating, spectra_);
-        unbaked_.material = query.material;
-        unbaked_.kernel = tabulate(kernel);
-        unbaked_.zero_order_xyz = kernel.zero_order_xyz();
+        unbaked_ = bake_kernel(query.material);
         for (const BudgetProbe& probe : query.probes) {
             most_key_lights_ = std::max(most_key_lights_, probe.key_lights);
             const MeasuredViews& views = query.views[probes_.size()];
@@ -116,6 +113,7 @@ class Search {
         if (query_.first) {
             MeasuredChoice first{.settings = *query_.first, .quality = query_.material.quality, .baked = {}};
             bake(first);
+            first_price_ = first.price;
             if (measure_up_to(kAnyError, first)) add(std::move(first));
         }
         for (MeasuredChoice& choice : choices) {
@@ -123,6 +121,8 @@ class Search {
             bake(choice);
             step();
         }
+        if (query_.cheaper && query_.first)
+            std::erase_if(choices, [&](const MeasuredChoice& choice) { return choice.price >= first_price_; });
         std::ranges::stable_sort(choices, {}, &MeasuredChoice::price);
         for (MeasuredChoice& choice : choices) {
             if (stop_.stop_requested() || found()) break;
@@ -132,6 +132,7 @@ class Search {
         if (query_.good_enough && !stop_.stop_requested()) {
             if (!found()) find_best();
             check(*std::ranges::min_element(state_.measured, {}, &MeasuredChoice::error));
+            if (query_.cheaper) measure_front();
         }
         return std::move(state_);
     }
@@ -248,6 +249,7 @@ class Search {
     colour::LightSpectra spectra_;
     CookedMaterial unbaked_;  ///< all but the tables
     int most_key_lights_ = 0;
+    double first_price_ = 0.0;  ///< price of query_.first
     std::vector<ProbeViews> probes_;
     std::map<std::string, std::shared_ptr<const CookedMaterial>> baked_;  ///< by settings without key_lights
     SearchState state_;

@@ -97,6 +97,8 @@ struct SearchQuery {
     /// setting with the least error() is known. Without it, all settings are measured at the first views, and those
     /// that are on_front() at all of them.
     std::optional<double> good_enough{};
+    /// Also measures those on_front() that are cheaper than what good_enough finds, or than `first`.
+    bool cheaper = false;
 };
 
 /// Measures settings, the cheapest first: their errors over the views against reference_radiance() under the

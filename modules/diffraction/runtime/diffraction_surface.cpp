@@ -19,12 +19,14 @@ namespace rowland::diffraction {
 namespace {
 
 /// Takes over what the object's program depends on, seen or not. Another material's data is dropped.
-void take_surface(const DiffractionSurface& surface, const std::shared_ptr<const scene::Mesh>& mesh, bool skinned,
-                  SurfaceState& state) {
+/// `second_material`: of `state.second`.
+void take_surface(const DiffractionSurface& surface, const std::shared_ptr<const GpuMaterial>& second_material,
+                  const std::shared_ptr<const scene::Mesh>& mesh, bool skinned, SurfaceState& state) {
     if (state.material != surface.material) {
         SurfaceState made;
         made.probe = state.probe;
         made.second = std::move(state.second);
+        made.fades = state.fades;
         state = std::move(made);
         state.material = surface.material;
         if (surface.material->reflected()) state.reflected = std::make_unique<SurfaceState>();
@@ -43,9 +45,11 @@ void take_surface(const DiffractionSurface& surface, const std::shared_ptr<const
     state.groove_rotation = surface.groove_rotation;
     state.grooves = surface.grooves;
     if (state.reflected)
-        take_surface({surface.material->reflected(), surface.groove_rotation, surface.grooves}, mesh, skinned,
+        take_surface({surface.material->reflected(), surface.groove_rotation, surface.grooves}, nullptr, mesh, skinned,
                      *state.reflected);
-    if (state.second) take_surface(surface, mesh, skinned, *state.second);
+    if (state.second)
+        take_surface({second_material, surface.groove_rotation, surface.grooves}, nullptr, mesh, skinned,
+                     *state.second);
 }
 
 /// The same surface seen from its other side.
@@ -76,14 +80,33 @@ bool is_filling(const SurfaceState& state) {
            (state.second && is_filling(*state.second));
 }
 
+/// The surface as it is drawn in this frame.
+void take(ecs::World& world, ecs::Entity entity) {
+    DiffractionSurface surface = world.get<DiffractionSurface>(entity);
+    std::shared_ptr<const GpuMaterial> second = surface.material;
+    if (const DrawnRung* drawn = world.find<DrawnRung>(entity)) {
+        surface.material = drawn->material();
+        second = drawn->next_material();
+    }
+    take_surface(surface, second, world.get<render::MeshInstance>(entity).mesh,
+                 world.find<scene::Skin>(entity) != nullptr, world.get<SurfaceState>(entity));
+}
+
 SurfaceState& state_of(ecs::World& world, ecs::Entity entity, render::ProbeSlot slot) {
     auto& state = world.get<SurfaceState>(entity);
     // One that is not seen has no second yet.
     return slot == render::ProbeSlot::Second && state.second ? *state.second : state;
 }
 
-/// Gives each slot the data that the object has for its probe, though the other slot had it.
-void take_probes(const render::LightMix& mix, SurfaceState& state) {
+/// Gives each slot the data that the object has for its probe, though the other slot had it. `fades`: to another rung.
+void take_probes(const render::LightMix& mix, bool fades, SurfaceState& state) {
+    if (fades != std::exchange(state.fades, fades)) state.second.reset();
+    if (fades) {
+        state.probe = mix.first;
+        if (!state.second) state.second = std::make_unique<SurfaceState>();
+        state.second->probe = mix.first;
+        return;
+    }
     const bool of_other_slot =
         state.second ? state.second->probe == mix.first : mix.has_second() && state.probe == mix.second;
     if (of_other_slot) {
@@ -156,7 +179,8 @@ bool DiffractionSurfaceType::owns(ecs::World& world, ecs::Entity entity) const {
 }
 
 gpu::ProgramDesc DiffractionSurfaceType::program(ecs::World& world, ecs::Entity entity, render::ProbeSlot slot) const {
-    return world.get<DiffractionSurface>(entity).material->program(state_of(world, entity, slot));
+    const SurfaceState& state = state_of(world, entity, slot);
+    return state.material->program(state);
 }
 
 void DiffractionSurfaceType::warn_illuminant_mismatch(const std::string& baked_for, const std::string& lit_by) {
@@ -168,12 +192,23 @@ void DiffractionSurfaceType::warn_illuminant_mismatch(const std::string& baked_f
 std::vector<gpu::ProgramDesc> DiffractionSurfaceType::later_programs(ecs::World& world, ecs::Entity entity,
                                                                      render::ProbeSlot slot) const {
     std::vector<gpu::ProgramDesc> programs;
+    const auto add = [&](SurfaceState& side) {
+        const bool without_map = std::exchange(side.without_map, false);
+        programs.push_back(side.material->program(side));
+        side.without_map = without_map;
+    };
     SurfaceState& state = state_of(world, entity, slot);
-    for (SurfaceState* side : {&state, state.reflected.get()}) {
-        if (side == nullptr || !side->without_map || !side->map.is_filling()) continue;
-        side->without_map = false;
-        programs.push_back(side->material->program(*side));
-        side->without_map = true;
+    for (SurfaceState* side : {&state, state.reflected.get()})
+        if (side != nullptr && side->without_map && side->map.is_filling()) add(*side);
+    DrawnRung* drawn = world.find<DrawnRung>(entity);
+    if (drawn == nullptr || !control_->announces(*drawn, entity)) return programs;
+    drawn->announced = control_->frame();
+    for (const Rung& rung : *drawn->ladder) {
+        SurfaceState as_rung;
+        take_surface({rung.material, state.groove_rotation, state.grooves}, nullptr, state.mesh,
+                     world.find<scene::Skin>(entity) != nullptr, as_rung);
+        add(as_rung);
+        if (as_rung.reflected) add(*as_rung.reflected);
     }
     return programs;
 }
@@ -185,30 +220,54 @@ void DiffractionSurfaceType::update(ecs::World& world, std::span<const render::F
     while (lights_.size() < lights.size()) lights_.push_back(std::make_unique<SurfaceLight>(window_));
     lights_.resize(lights.size());
     for (std::size_t i = 0; i < lights.size(); ++i) lights_[i]->set(lights[i]);
+    follow_budget(world, seen);
     world.view<DiffractionSurface, render::MeshInstance>().each(
-        [&](ecs::Entity entity, const DiffractionSurface& surface, const render::MeshInstance& instance) {
+        [&](ecs::Entity entity, const DiffractionSurface&, const render::MeshInstance&) {
             if (world.find<SurfaceState>(entity) == nullptr) world.add(entity, SurfaceState{});
-            auto& state = world.get<SurfaceState>(entity);
-            state.seen = false;
-            take_surface(surface, instance.mesh, world.find<scene::Skin>(entity) != nullptr, state);
+            world.get<SurfaceState>(entity).seen = false;
+            take(world, entity);
         });
     for (const render::LitEntity& lit : seen)
         if (owns(world, lit.entity)) update_seen(world, lit);
 }
 
+void DiffractionSurfaceType::follow_budget(ecs::World& world, std::span<const render::LitEntity> seen) {
+    std::optional<ecs::Entity> holder;
+    world.view<FrameBudget>().each([&](ecs::Entity entity, const FrameBudget&) { holder = entity; });
+    if (!holder) {
+        if (std::exchange(control_, nullptr) == nullptr) return;
+        std::vector<ecs::Entity> with_rung;
+        world.view<DrawnRung>().each([&](ecs::Entity entity, const DrawnRung&) { with_rung.push_back(entity); });
+        for (const ecs::Entity entity : with_rung) world.remove<DrawnRung>(entity);
+        return;
+    }
+    if (!control_) control_ = std::make_unique<RungControl>(xyz_to_working_);
+    control_->choose(world, seen, world.get<FrameBudget>(*holder).gratings_ms);
+    std::map<std::uint32_t, render::LightMix> lights;
+    for (const render::LitEntity& lit : seen) lights[lit.entity.index] = lit.light;
+    int fading = 0;
+    world.view<DrawnRung, SurfaceState>().each([&](ecs::Entity entity, DrawnRung& drawn, SurfaceState& state) {
+        control_->step_fade(lights[entity.index], drawn, state);
+        if (drawn.changes()) ++fading;
+    });
+    FrameBudgetReport report = control_->report();
+    report.fading = fading;
+    world.add(*holder, report);
+}
+
 void DiffractionSurfaceType::update_seen(ecs::World& world, const render::LitEntity& lit) {
     const auto& surface = world.get<DiffractionSurface>(lit.entity);
     auto& state = world.get<SurfaceState>(lit.entity);
-    take_probes(lit.light, state);
-    take_surface(surface, world.get<render::MeshInstance>(lit.entity).mesh,
-                 world.find<scene::Skin>(lit.entity) != nullptr, state);
+    const DrawnRung* drawn = world.find<DrawnRung>(lit.entity);
+    take_probes(lit.light, drawn != nullptr && drawn->changes() && !lit.light.has_second(), state);
+    take(world, lit.entity);
     state.seen = true;
     for (SurfaceState* slot : {&state, state.second.get()}) {
         if (slot == nullptr) continue;
         SurfaceLight& light = *lights_[slot->probe];
         warn_illuminant_mismatch(surface.material->illuminant(), light.illuminant());
         const float part = slot == &state ? 1.0F - lit.light.second_part : lit.light.second_part;
-        update_lit(world, lit.entity, light, *slot, part >= 0.5F);
+        update_lit(world, lit.entity, light, *slot, part >= 0.5F && !(slot != &state && state.fades));
     }
 }
 

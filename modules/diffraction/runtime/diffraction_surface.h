@@ -17,6 +17,7 @@
 #include "engine/render/material.h"
 #include "modules/diffraction/runtime/gpu_material.h"
 #include "modules/diffraction/runtime/map_cache.h"
+#include "modules/diffraction/runtime/rung_control.h"
 #include "modules/diffraction/runtime/surface_light.h"
 
 namespace rowland::diffraction {
@@ -41,8 +42,9 @@ struct DiffractionSettings {
 /// Whether maps are still being filled for the light and the objects that were last seen.
 bool maps_are_filling(ecs::World& world);
 
-/// Draws entities that have a DiffractionSurface, each by its material's representation. The data of an object that is
-/// seen is updated when the light, the object or its material changes.
+/// Draws entities that have a DiffractionSurface, each by its material's representation or, where an entity has a
+/// FrameBudget, by the rung that the budget allows. The data of an object that is seen is updated when the light, the
+/// object or its material changes.
 class DiffractionSurfaceType final : public render::MaterialType {
  public:
     /// `xyz_to_working` as the renderer's.
@@ -62,6 +64,7 @@ class DiffractionSurfaceType final : public render::MaterialType {
     void update(ecs::World& world, std::span<const render::FrameLight> lights,
                 std::span<const render::LitEntity> seen) override;
     std::uint64_t version() const override { return version_; }
+    render::DrawControl* draw_control() const override { return control_.get(); }
     void bind(ecs::World& world, ecs::Entity entity, render::ProbeSlot slot,
               const gpu::Program& program) const override;
     std::optional<gpu::ProgramDesc> overlay_program(ecs::World& world, ecs::Entity entity,
@@ -70,6 +73,7 @@ class DiffractionSurfaceType final : public render::MaterialType {
                       const gpu::Program& program) const override;
 
  private:
+    void follow_budget(ecs::World& world, std::span<const render::LitEntity> seen);
     void update_seen(ecs::World& world, const render::LitEntity& lit);
     /// Under one of its probes.
     void update_lit(ecs::World& world, ecs::Entity entity, SurfaceLight& light, SurfaceState& state, bool may_wait);
@@ -88,6 +92,7 @@ class DiffractionSurfaceType final : public render::MaterialType {
     std::optional<math::SphericalWindow> window_;
     std::vector<std::unique_ptr<SurfaceLight>> lights_;  ///< by index of the frame's lights
     MapCache maps_;
+    std::unique_ptr<RungControl> control_;  ///< while there is a FrameBudget
     std::uint64_t version_ = 0;
 };
 

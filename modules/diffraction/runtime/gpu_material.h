@@ -47,7 +47,8 @@ struct SurfaceState {
     ObjectMap map;
     bool without_map = false;                 ///< drawn without one: it is not filled yet, or there can be none
     std::unique_ptr<SurfaceState> reflected;  ///< of GpuMaterial::reflected(), or null
-    std::unique_ptr<SurfaceState> second;     ///< under the second probe, or null
+    std::unique_ptr<SurfaceState> second;     ///< under the second probe, or of the rung that fades in; or null
+    bool fades = false;                       ///< `second` is of another rung
 };
 
 /// An object with a grating in this frame.

@@ -55,6 +55,40 @@ TEST(CookedMaterial, EveryRepresentationIsReadAsItWasWritten) {
     }
 }
 
+TEST(CookedMaterial, CheaperRungsAreReadAsTheyWereWritten) {
+    const nlohmann::json json =
+        material_with(R"({"representation": "planar", "bands": 2, "rank": 3, "map_resolution": 16})");
+    CookedMaterial original = cook_material(json, "m.json");
+    const auto arc = std::make_shared<const CookedMaterial>(cook_material(
+        material_with(R"({"representation": "arc", "bands": 2, "rank": 3, "view_resolution": 8})"), "m.json"));
+    const auto add = [&](nlohmann::json settings, const std::shared_ptr<const CookedMaterial>& baked, double price) {
+        const Quality quality = std::get<Quality>(suited_quality(settings, original.material.grating));
+        BudgetRecord record{.price = price, .probes = {}};
+        record.probes.push_back({.probe = "a", .key_lights = 2, .error = 1.0 / price});
+        original.cheaper.push_back({std::move(settings), quality, baked, std::move(record)});
+    };
+    for (const int keys : {0, 4})
+        add({{"representation", "arc"}, {"bands", 2}, {"rank", 3}, {"view_resolution", 8}, {"key_lights", keys}}, arc,
+            2.0 + keys);
+    add({{"representation", "planar"}, {"bands", 2}, {"rank", 3}, {"map_resolution", 16}, {"key_lights", 8}}, nullptr,
+        9.0);
+    const std::vector<std::byte> bytes = write_cooked_material(json, original);
+    const CookedMaterial read = read_cooked_material(bytes, "m.material");
+    EXPECT_EQ(write_cooked_material(json, read), bytes);
+    ASSERT_EQ(read.cheaper.size(), 3U);
+    EXPECT_EQ(read.cheaper[0].baked, read.cheaper[1].baked) << "tables are stored once";
+    EXPECT_EQ(read.cheaper[2].baked, nullptr);
+    const CookedMaterial rung = as_rung(read, read.cheaper[1]);
+    EXPECT_EQ(rung.material.quality.key_lights, 4);
+    EXPECT_EQ(rung.measured->price, 6.0);
+    EXPECT_EQ(std::get<ArcTable>(rung.tables).rank, 3);
+    EXPECT_EQ(as_rung(read, read.cheaper[2]).tables.index(), original.tables.index());
+    for (std::size_t missing = 1; missing < bytes.size() / 3; missing += 97)
+        EXPECT_THROW(read_cooked_material(std::span(bytes).first(bytes.size() - missing), "m.material"), Error);
+    original.cheaper[2].baked = arc;  // which are not those of its representation
+    EXPECT_THROW(read_cooked_material(write_cooked_material(json, original), "m.material"), Error);
+}
+
 /// Solved efficiencies are kept, and the kernel of all views follows from them.
 TEST(CookedMaterial, EfficienciesOfRigorousTheoryAreReadAsTheyWereWritten) {
     nlohmann::json json = small_material();
@@ -250,7 +284,7 @@ TEST_F(MaterialOfFiles, ARefusedOneIsNamedAndAMissingOneIsStillADependency) {
     EXPECT_THAT(without.dependencies(), ::testing::Contains(folder_.path() / "t.csv"));
 }
 
-/// The promise about cooked files (content/README.md): version_9.material was written when version 9 was new.
+/// The promise about cooked files (content/README.md): version_10.material was written when version 10 was new.
 constexpr const char* kSource = R"({
   "grating": { "pitch_nm": 1200, "profile": { "type": "lamellar", "duty": 0.4, "depth_nm": 120 }, "theory": "scalar",
     "orders": [-1, 1] },

@@ -120,7 +120,7 @@ TEST(QualityJson, WhatDoesNotSuitIsRefusedByItsPointer) {
         {R"("representation": "direct", "probes": ["a.json"])", flat, {"probes"}},
         {R"("measure": "flip")", flat, {"hdr_flip"}},
         {R"("representation": "direct", "measure": "hdr_flip")", flat, {"measure"}},
-        {R"("representation": "direct", "key_lights": 0)", flat, {"/quality/key_lights"}},
+        {R"("representation": "direct", "key_lights": false)", flat, {"/quality/key_lights"}},
         {R"("representation": "direct", "key_lights": false)", flat, {"/quality/key_lights"}},
         {R"("representation": "arc", "key_lights": 65)", flat, {"/quality/key_lights"}},
         {R"("representation": "spikes", "lights_at": "vertices")", flat, {"/quality/lights_at"}},

@@ -113,6 +113,53 @@ TEST(Budget, NothingCheaperWouldHaveDone) {
     EXPECT_GT(cheaper, 3);
 }
 
+/// What a frame may draw in place of the choice: each rung cheaper and worse than the next, with the errors that it
+/// has.
+TEST(Budget, KeepsTheCheaperRungsWithTheirErrors) {
+    const std::vector<BudgetProbe> probes = {made_up()};
+    const std::vector<ShadingPoint> frames = some_frames(SurfaceShape::Curved, 12);
+    const Material material = with_budget(0.05, SurfaceShape::Curved);
+    const BudgetChoice choice = choose_representation(material, probes, one_part(probes.size(), frames), "cd.json");
+    const auto reference = reference_radiance(material.grating, probes[0].image, colour::LightSpectra(), frames);
+    const std::vector<CookedRung>& rungs = choice.cooked.cheaper;
+    ASSERT_GE(rungs.size(), 2U);
+    EXPECT_LT(rungs.size(), kMostRungs);
+    EXPECT_EQ(rungs.front().settings, (nlohmann::json{{"representation", "direct"}, {"key_lights", 0}}));
+    double price = -1.0;
+    double error = 1e9;
+    for (const CookedRung& rung : rungs) {
+        EXPECT_GT(rung.measured.price, price) << rung.settings;
+        EXPECT_LT(rung.measured.largest_error(), error) << rung.settings;
+        price = rung.measured.price;
+        error = rung.measured.largest_error();
+        EXPECT_GT(error, 0.05);
+        EXPECT_DOUBLE_EQ(error, error_of(as_rung(choice.cooked, rung), rung.settings, probes[0], frames, reference));
+    }
+    EXPECT_LT(price, 0.85 * choice.cooked.measured->price);
+}
+
+/// Of efficiencies that depend on the view, the errors are those of what is drawn, at every view.
+TEST(Budget, OfRigorousEfficienciesMeasuresWhatIsDrawn) {
+    nlohmann::json json = compact_disc();
+    json["metal"] = "Al";
+    json["grating"] = {{"pitch_nm", 740},
+                       {"profile", {{"type", "lamellar"}, {"duty", 0.43}, {"depth_nm", 103}}},
+                       {"theory", "rigorous"},
+                       {"orders", {-1, 1}}};
+    json["quality"] = {{"max_error", 0.05}};
+    const Material material = with_efficiencies(parse_material(json, "dvd.json"), "dvd.json");
+    const std::vector<BudgetProbe> probes = {made_up()};
+    const std::vector<ShadingPoint> frames = some_frames(SurfaceShape::Flat, 12);
+    const BudgetChoice choice = choose_representation(material, probes, one_part(probes.size(), frames), "dvd.json");
+    const auto reference = reference_radiance(material.grating, probes[0].image, colour::LightSpectra(), frames);
+    json["quality"] = choice.settings;
+    const CookedMaterial drawn = cook_material(json, "dvd.json");
+    const EvaluationLight light(probes[0].image, drawn.material.quality.key_lights, math::SphericalWindow::None);
+    const double error = relative_rms(shade_surfaces(drawn, light, std::vector<Surface>{frames}), reference);
+    EXPECT_LE(error, 0.05) << choice.settings;
+    EXPECT_NEAR(choice.cooked.measured->largest_error(), error, 1e-3 * error);
+}
+
 TEST(Budget, OutOfReachIsRefusedWithTheBestThatIsNot) {
     const std::vector<BudgetProbe> probes = {made_up()};
     const std::vector<ShadingPoint> frames = some_frames(SurfaceShape::Flat, 24);

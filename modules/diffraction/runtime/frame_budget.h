@@ -1,0 +1,65 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <span>
+#include <vector>
+
+namespace rowland::diffraction {
+
+/// Component, of one entity: the GPU's time that all gratings may take in a frame. Their materials are then drawn by
+/// the rungs that give the least error within it, each weighted by the pixels that it covers.
+struct FrameBudget {
+    double gratings_ms = 0.0;  ///< at least 0: below what the cheapest rungs take, these are drawn
+};
+
+/// Component, beside a FrameBudget: what became of it.
+struct FrameBudgetReport {
+    double last_ms = 0.0;       ///< of the last frame that the GPU has finished
+    double spent_ms = 0.0;      ///< averaged over the last ones
+    double predicted_ms = 0.0;  ///< of the chosen rungs
+    /// Averages over the pixels, of errors as multiples of those that budgets ask for by default.
+    double error = 0.0;
+    double least_error = 0.0;  ///< if every object were drawn by its best rung
+    int objects = 0;           ///< seen
+    int at_best = 0;           ///< of these, drawn by their best rung
+    int fading = 0;            ///< from one rung to another
+};
+
+/// A way to draw an object.
+struct RungOption {
+    double error = 0.0;  ///< times its pixels
+    double ms = 0.0;
+};
+
+/// For each object the index of its option, so that the sum of errors is the least with a sum of times of at most `ms`;
+/// the fastest of all if even those take longer. Each object has options. Exact for a few objects, for many within what
+/// the best exchange of one object's option gives.
+std::vector<std::size_t> assign_rungs(std::span<const std::vector<RungOption>> objects, double ms);
+
+/// What draws of each kind cost on this machine, learned from what they took: a price per sample for each kind, and the
+/// time that a unit of price takes, which follows the machine's load.
+class DrawCosts {
+ public:
+    /// A kind that nothing is known of, at a price that is right but for a factor of all kinds.
+    void expect(std::uint64_t kind, double price) { prices_.try_emplace(kind, price); }
+
+    struct Run {
+        std::uint64_t kind = 0;
+        double samples = 0.0;
+        double ms = 0.0;
+    };
+    /// The runs of a frame.
+    void learn(std::span<const Run> frame);
+
+    double ms(std::uint64_t kind, double samples) const;
+
+ private:
+    double price(std::uint64_t kind) const;
+
+    std::map<std::uint64_t, double> prices_;
+    double ms_per_unit_ = 0.0;  ///< 0: nothing was measured
+};
+
+}  // namespace rowland::diffraction

@@ -1,0 +1,86 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <glm/mat3x3.hpp>
+#include <map>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "engine/ecs/world.h"
+#include "engine/gpu/draw_meter.h"
+#include "engine/gpu/program.h"
+#include "engine/render/material.h"
+#include "modules/diffraction/runtime/frame_budget.h"
+#include "modules/diffraction/runtime/gpu_material.h"
+
+namespace rowland::diffraction {
+
+/// A way to draw a material.
+struct Rung {
+    std::shared_ptr<const GpuMaterial> material;
+    double error = 0.0;  ///< the largest that was measured, as a multiple of what budgets ask for by default
+    double price = 0.0;  ///< shading_price()
+};
+/// From the cheapest to the material itself.
+using Ladder = std::vector<Rung>;
+
+/// Component: the rung that draws an object. While it fades to another, SurfaceState::second has that.
+struct DrawnRung {
+    std::shared_ptr<const Ladder> ladder;
+    std::size_t shown = 0;
+    std::size_t wanted = 0;
+    int fade_frame = 0;                           ///< of kFadeFrames; 0: it does not fade
+    double samples = 0.0;                         ///< that the last draw covered
+    bool seen = false;                            ///< in the last frame
+    std::optional<std::uint64_t> announced = {};  ///< frame in which later_programs() named the rungs' programs
+
+    bool changes() const { return wanted != shown; }
+    const std::shared_ptr<const GpuMaterial>& material() const { return (*ladder)[shown].material; }
+    const std::shared_ptr<const GpuMaterial>& next_material() const { return (*ladder)[wanted].material; }
+};
+
+/// A rung's last frames, in which the next one fades in.
+inline constexpr int kFadeFrames = 8;
+
+/// Chooses the rungs of all objects in each frame so that their draws take no longer than a FrameBudget, as measured.
+class RungControl final : public render::DrawControl {
+ public:
+    explicit RungControl(const glm::dmat3& xyz_to_working) : xyz_to_working_(xyz_to_working) {}
+
+    void take(ecs::World& world, std::span<const gpu::MeteredRun> runs) override;
+    std::uint64_t kind(ecs::World& world, ecs::Entity entity, render::ProbeSlot slot) const override;
+    std::optional<float> second_part(ecs::World& world, ecs::Entity entity) const override;
+
+    /// Once a frame, before the objects are updated: gives each of them a DrawnRung.
+    void choose(ecs::World& world, std::span<const render::LitEntity> seen, double gratings_ms);
+    /// Begins, continues or ends the fade of an object that is seen, or changes one that is not at once.
+    void step_fade(const render::LightMix& light, DrawnRung& drawn, SurfaceState& state) const;
+    /// Whether the frame should announce the programs of an object's rungs: at first, and every 64th frame, as the scene's
+    /// lights may ask for others.
+    bool announces(const DrawnRung& drawn, ecs::Entity entity) const;
+    std::uint64_t frame() const { return frame_; }
+    const FrameBudgetReport& report() const { return report_; }
+
+ private:
+    /// An object that was counted.
+    struct Candidate {
+        DrawnRung* drawn;
+        double samples;  ///< of both slots
+    };
+
+    std::shared_ptr<const Ladder> ladder_of(const std::shared_ptr<const GpuMaterial>& material);
+    std::vector<RungOption> options_of(const Candidate& candidate) const;
+    void write_report(std::span<const Candidate> candidates, double predicted_ms);
+
+    glm::dmat3 xyz_to_working_;
+    std::map<const GpuMaterial*, std::weak_ptr<const Ladder>> ladders_;
+    DrawCosts costs_;
+    FrameBudgetReport report_;
+    std::uint64_t frame_ = 0;
+    int fade_step_ = 1;  ///< frames of a fade in one frame; 2 while the time is far too long
+};
+
+}  // namespace rowland::diffraction

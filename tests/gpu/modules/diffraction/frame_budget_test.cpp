@@ -1,0 +1,197 @@
+// Objects within a frame budget: which rungs draw them, how these follow each other, and what is measured.
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "engine/scene/mesh_recipe.h"
+#include "tests/gpu/modules/diffraction/grating_picture.h"
+
+namespace rowland::diffraction {
+namespace {
+
+constexpr const char* kCd = kSlitCd;
+
+BudgetRecord record(double error, double price) {
+    BudgetRecord record{.price = price, .probes = {}};
+    record.probes.push_back({.probe = "a probe", .key_lights = 0, .error = error});
+    return record;
+}
+
+/// Drawn by key lights alone, by an arc table, or by the map of the whole probe.
+CookedMaterial ladder_material() {
+    CookedMaterial top = cook(kCd, R"({"representation": "planar", "map_resolution": 32, "key_lights": 4})");
+    top.measured = record(0.01, 60.0);
+    const auto add = [&](const char* settings, double error, double price) {
+        auto baked = std::make_shared<const CookedMaterial>(cook(kCd, settings));
+        top.cheaper.push_back({.settings = nlohmann::json::parse(settings),
+                               .quality = baked->material.quality,
+                               .baked = baked,
+                               .measured = record(error, price)});
+    };
+    add(R"({"representation": "direct", "key_lights": 0})", 1.0, 0.0);
+    add(R"({"representation": "arc", "bands": 5, "rank": 8, "key_lights": 0})", 0.2, 4.0);
+    return top;
+}
+
+/// Two discs side by side that face the camera.
+class FrameBudgets : public test::GlTest {
+ protected:
+    FrameBudgets() {
+        register_module(renderer_, {.map_pace = MapPace::Incremental, .map_wait = std::chrono::hours(1)});
+        renderer_.set_probe(lighting::build_light_probe(
+            smooth_probe(), {.bands = 8, .key_lights = 4, .light_face = 32, .prefilter = {.face_size = 32}}));
+        renderer_.use_key_lights(true);
+        const auto material = make_gpu_material(ladder_material(), glm::dmat3(1.0));
+        scene::Mesh disc = scene::build_mesh(scene::DiscRecipe{.inner_radius = 0.2, .outer_radius = 0.9});
+        for (const float x : {-1.0F, 1.0F}) {
+            const ecs::Entity entity = world_.create();
+            const glm::quat upright = glm::angleAxis(1.5707964F, glm::vec3(1.0F, 0.0F, 0.0F));
+            world_.add(entity, scene::Transform{.translation = {x, 0.0F, 0.0F}, .rotation = upright});
+            world_.add(entity, render::make_mesh_instance(scene::Mesh(disc)));
+            world_.add(entity, render::StandardMaterial(material->base()));
+            world_.add(entity, DiffractionSurface{material});
+            discs_.push_back(entity);
+        }
+    }
+
+    std::vector<glm::vec4> draw() {
+        scene::update_world_matrices(world_);
+        renderer_.render(world_, camera_, target_);
+        glFinish();  // what was measured is known in the next frame
+        return target_.read_rgba_float();
+    }
+    void set_budget(double ms) {
+        if (!world_.alive(budget_)) budget_ = world_.create();
+        world_.add(budget_, FrameBudget{ms});
+    }
+    const FrameBudgetReport& report() { return world_.get<FrameBudgetReport>(budget_); }
+    std::size_t rung(std::size_t disc) { return world_.get<DrawnRung>(discs_[disc]).shown; }
+    /// Until the maps are there, the rungs chosen, and shown.
+    std::vector<glm::vec4> settle() {
+        std::vector<glm::vec4> picture;
+        int still = 0;
+        for (int frame = 0; frame < 300 && still < 4; ++frame) {
+            picture = draw();
+            still = maps_are_filling(world_) || report_changes() ? 0 : still + 1;
+        }
+        EXPECT_EQ(still, 4);
+        return picture;
+    }
+    bool report_changes() {
+        const auto* report = world_.find<FrameBudgetReport>(budget_);
+        return world_.alive(budget_) && (report == nullptr || report->fading > 0 || report->objects == 0);
+    }
+    static float difference(const std::vector<glm::vec4>& a, const std::vector<glm::vec4>& b) {
+        float largest = 0.0F;
+        for (std::size_t i = 0; i < a.size(); ++i)
+            for (int c = 0; c < 3; ++c) largest = std::max(largest, std::abs(a[i][c] - b[i][c]));
+        return largest;
+    }
+
+    render::Renderer renderer_{glm::dmat3(1.0)};
+    ecs::World world_;
+    std::vector<ecs::Entity> discs_;
+    ecs::Entity budget_;
+    scene::Camera camera_{.eye = {0.0F, 0.0F, 5.0F}};
+    gpu::Framebuffer target_{
+        gpu::FramebufferDesc{.width = 128, .height = 96, .colours = {gpu::Format::RGBA32F}, .depth = true}};
+};
+
+TEST_F(FrameBudgets, OneThatIsNeverReachedChangesNothing) {
+    const std::vector<glm::vec4> without = settle();
+    set_budget(1e9);
+    EXPECT_LT(difference(settle(), without), 1e-6F);
+    EXPECT_EQ(rung(0), 2U);
+    EXPECT_EQ(report().objects, 2);
+    EXPECT_EQ(report().at_best, 2);
+    EXPECT_NEAR(report().error, 0.01 / 0.05, 1e-12);
+    EXPECT_GT(report().spent_ms, 0.0);
+    EXPECT_GT(report().predicted_ms, 0.0);
+}
+
+TEST_F(FrameBudgets, OneThatCannotBeMetDrawsTheCheapestRungs) {
+    set_budget(1e-9);
+    const std::vector<glm::vec4> cheapest = settle();
+    EXPECT_EQ(rung(0), 0U);
+    EXPECT_EQ(rung(1), 0U);
+    EXPECT_EQ(report().at_best, 0);
+    EXPECT_NEAR(report().error, 1.0 / 0.05, 1e-12);
+    EXPECT_NEAR(report().least_error, 0.01 / 0.05, 1e-12);
+    world_.destroy(budget_);
+    const std::vector<glm::vec4> best = settle();
+    EXPECT_GT(difference(cheapest, best), 0.01F);
+    const auto material =
+        make_gpu_material(cook(kCd, R"({"representation": "direct", "key_lights": 0})"), glm::dmat3(1.0));
+    for (const ecs::Entity disc : discs_) world_.get<DiffractionSurface>(disc).material = material;
+    EXPECT_LT(difference(settle(), cheapest), 1e-5F);  // its program does not multiply by a part of the light
+}
+
+/// Among neighbouring frames, also while a rung gives way to the next, no pixel jumps.
+TEST_F(FrameBudgets, RungsFadeIntoEachOther) {
+    set_budget(1e9);
+    std::vector<glm::vec4> before = settle();
+    const std::vector<glm::vec4> best = before;
+    const int programs = renderer_.report().programs;
+    set_budget(1e-9);
+    float largest = 0.0F;
+    for (int frame = 0; frame < 2 * kFadeFrames; ++frame) {
+        const std::vector<glm::vec4> picture = draw();
+        largest = std::max(largest, difference(picture, before));
+        before = picture;
+    }
+    const std::vector<glm::vec4> cheapest = settle();
+    EXPECT_LT(difference(before, cheapest), 1e-6F) << "the fade is over";
+    EXPECT_LT(largest, 2.1F / (kFadeFrames + 1) * difference(best, cheapest)) << "two steps in a frame, as time is exceeded";
+    EXPECT_EQ(renderer_.report().programs, programs) << "all rungs' programs were linked with the first";
+}
+
+TEST_F(FrameBudgets, AFadeWaitsForTheMapOfItsRung) {
+    set_budget(1e-9);
+    const std::vector<glm::vec4> cheapest = settle();
+    set_budget(1e9);
+    for (int frame = 0; frame < 300 && rung(0) == 0; ++frame) {
+        const std::vector<glm::vec4> picture = draw();
+        bool fades = false;
+        for (const ecs::Entity disc : discs_) {
+            if (world_.get<DrawnRung>(disc).fade_frame == 0) continue;
+            fades = true;
+            EXPECT_FALSE(world_.get<SurfaceState>(disc).second->without_map);
+        }
+        if (!fades && rung(0) == 0 && rung(1) == 0) {
+            EXPECT_LT(difference(picture, cheapest), 1e-6F);
+        }
+    }
+    settle();
+    EXPECT_EQ(rung(0), 2U);
+    EXPECT_EQ(rung(1), 2U);
+}
+
+TEST_F(FrameBudgets, WhatIsNotSeenChangesAtOnce) {
+    set_budget(1e9);
+    settle();
+    world_.get<scene::Transform>(discs_[1]).translation.z = 100.0F;  // behind the camera
+    settle();
+    EXPECT_EQ(report().objects, 1);
+    world_.get<scene::Transform>(discs_[1]).translation.z = 0.0F;
+    const std::vector<glm::vec4> again = settle();
+    EXPECT_EQ(report().objects, 2);
+    EXPECT_EQ(rung(1), 2U);
+    for (const glm::vec4& pixel : again) ASSERT_TRUE(std::isfinite(pixel.x));
+}
+
+/// Counts the pixels of a disc by the picture, whose background is black.
+TEST_F(FrameBudgets, TheSamplesOfEachDrawAreCounted) {
+    set_budget(1e9);
+    settle();
+    const double both = world_.get<DrawnRung>(discs_[0]).samples + world_.get<DrawnRung>(discs_[1]).samples;
+    world_.destroy(discs_[1]);
+    const std::vector<glm::vec4> one = settle();
+    world_.destroy(discs_[0]);
+    const std::vector<glm::vec4> none = draw();
+    int pixels = 0;
+    for (std::size_t i = 0; i < one.size(); ++i)
+        if (one[i] != none[i]) ++pixels;
+    EXPECT_GT(pixels, 300);
+    EXPECT_NEAR(both / 2.0, pixels, 0.02 * pixels);
+}
+
+}  // namespace
+}  // namespace rowland::diffraction
