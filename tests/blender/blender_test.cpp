@@ -1,3 +1,5 @@
+#include <gmock/gmock.h>
+
 #include <algorithm>
 
 #include "engine/scene/editable_gltf.h"
@@ -59,6 +61,16 @@ TEST(BlenderAddOn, GratingsSurviveExportAndImportAndAreWhatAttachMakes) {
     EXPECT_FALSE(object_of(path("scene.glb"), "DVD").is_null());
     for (const std::string name : {"DVD", "Vinyl", "Foil"})
         EXPECT_EQ(object_of(path("scene.glb"), name), object_of(path("scene.gltf"), name)) << name;
+    const nlohmann::json boxes = nlohmann::json::parse(read_text_file(path("scene.gltf"), 1 << 20));
+    EXPECT_THAT(boxes["extensionsUsed"], ::testing::Contains("ROWLAND_light_probe"));
+    const auto has_box = [](const nlohmann::json& node) {
+        return node.value("extensions", nlohmann::json::object()).contains("ROWLAND_light_probe");
+    };
+    const auto box = std::ranges::find_if(boxes["nodes"], has_box);
+    ASSERT_NE(box, boxes["nodes"].end());
+    EXPECT_EQ((*box)["extensions"]["ROWLAND_light_probe"],
+              (nlohmann::json{{"size_m", {1.0, 1.0, 1.0}}, {"fade_m", 0.25}, {"probe", "rooms/Hall.probe"}}));
+    EXPECT_NEAR((*box)["scale"][1].get<double>(), 3.0, 1e-6) << "glTF's Y is Blender's Z";
 }
 
 }  // namespace

@@ -131,6 +131,32 @@ def check_show():
     expect(most > 4, True, "a modifier's vertices")
 
 
+def add_box(name):
+    bpy.ops.object.empty_add(type="CUBE", radius=0.5, location=(1, 2, 3))
+    box = bpy.context.object
+    box.name = name
+    box.scale = (6, 4, 3)
+    box.rotation_euler = (0, 0, 0.5)
+    box.rowland_probe.file = f"rooms/{name}.probe"
+    box.rowland_probe.fade_m = 0.25
+
+
+def box_of(name):
+    """Lengths along the object's axes, centre, probe and fade."""
+    box = bpy.data.objects[name]
+    lengths = [round(2 * box.empty_display_size * factor, 4) for factor in box.scale]
+    return lengths, [round(v, 4) for v in box.location], box.rowland_probe.file, round(box.rowland_probe.fade_m, 6)
+
+
+def check_box_of_other_lengths():
+    from rowland_diffraction import light_probe
+
+    bpy.ops.object.empty_add()
+    light_probe.replace(bpy.context.object, {"size_m": [6, 3, 4], "probe": "a.probe"})
+    expect(box_of(bpy.context.object.name)[0], [6, 4, 3], "glTF's Y is Blender's Z")
+    expect(bpy.context.object.rowland_probe.fade_m, 1, "the default fade")
+
+
 def edit_by_panel(fields):
     """What the panel's fields do to the object."""
     fields.lines_per_mm = 1000
@@ -192,6 +218,10 @@ expect(bpy.data.materials["DVD"].rowland_wear.object(), {}, "a new disc's wear")
 worn = wear.object()
 before = gratings()
 expect(sorted(before), ["DVD", "Foil", "Vinyl"], "materials with gratings")
+add_box("Hall")
+bpy.ops.object.empty_add()
+box = box_of("Hall")
+expect(box, ([6, 4, 3], [1, 2, 3], "rooms/Hall.probe", 0.25), "a new box")
 export("scene.glb")
 export("scene.gltf", export_format="GLTF_SEPARATE")
 
@@ -200,6 +230,8 @@ for name in ("scene.glb", "scene.gltf"):
     bpy.ops.preferences.addon_enable(module="rowland_diffraction")
     bpy.ops.import_scene.gltf(filepath=str(folder / name))
     expect(gratings(), before, f"the objects of {name}")
+    expect(box_of("Hall"), box, f"the box of {name}")
+    expect([o.name for o in bpy.data.objects if o.rowland_probe.file], ["Hall"], f"the boxes of {name}")
     fields = bpy.data.materials["Foil"].rowland
     expect(pixels(fields.groove_image), [v for i in range(16) for v in (i, 128, 0, 255)], f"the image of {name}")
     expect(json.loads(fields.sampler), {"magFilter": 9728, "wrapS": 33071}, f"the sampler of {name}")
@@ -220,4 +252,5 @@ give_preset(disc, "dvd")
 expect("pitch_nm" in draw_panel(disc), True, "a grating of grooves is shown")
 check_orders(disc.rowland)
 export("screen.glb")
+check_box_of_other_lengths()
 check_show()

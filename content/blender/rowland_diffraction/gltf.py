@@ -1,4 +1,4 @@
-"""Writes and reads gratings and wear with Blender's own glTF exporter and importer, which call these classes."""
+"""Writes and reads gratings, wear and boxes of light with Blender's own glTF exporter and importer, which call these classes."""
 
 import importlib
 import json
@@ -9,7 +9,7 @@ import urllib.parse
 import bpy
 import numpy
 
-from . import grating, wear
+from . import grating, light_probe, wear
 
 # Debian 12's Blender imports no mesh without it: its glTF importer asks for a name that its NumPy has dropped.
 if "bool" not in numpy.__dict__:
@@ -92,10 +92,14 @@ class glTF2ExportUserExtension:
                 value["maskTexture"] = {"index": self.texture(fields.mask, "", export_settings)}
             self.add(wear.EXTENSION, value, gltf2_material)
 
-    def add(self, name, value, gltf2_material):
-        if gltf2_material.extensions is None:
-            gltf2_material.extensions = {}
-        gltf2_material.extensions[name] = self.Extension(name=name, extension=value, required=False)
+    def gather_node_hook(self, gltf2_node, blender_object, export_settings):
+        if value := blender_object and light_probe.extension_of(blender_object):
+            self.add(light_probe.EXTENSION, value, gltf2_node)
+
+    def add(self, name, value, gltf2_thing):
+        if gltf2_thing.extensions is None:
+            gltf2_thing.extensions = {}
+        gltf2_thing.extensions[name] = self.Extension(name=name, extension=value, required=False)
 
     def grating(self, fields, export_settings):
         value = fields.object()
@@ -146,7 +150,7 @@ class glTF2ImportUserExtension:
     def __init__(self):
         from io_scene_gltf2.io.com.gltf2_io_extensions import Extension
 
-        names = (grating.EXTENSION, wear.EXTENSION)
+        names = (grating.EXTENSION, wear.EXTENSION, light_probe.EXTENSION)
         self.extensions = [Extension(name=name, extension={}, required=False) for name in names]
 
     def gather_import_material_after_hook(self, gltf_material, _vertex_color, blender_material, gltf):
@@ -167,3 +171,7 @@ class glTF2ImportUserExtension:
             fields.groove_image = imported_image(gltf, index)
             fields.sampler = sampler_text(gltf, index)
         fields.replace(value)
+
+    def gather_import_node_after_hook(self, _vnode, gltf_node, blender_object, _gltf):
+        if value := ((gltf_node and gltf_node.extensions) or {}).get(light_probe.EXTENSION):
+            light_probe.replace(blender_object, value)
