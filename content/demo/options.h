@@ -31,7 +31,7 @@ struct Options : app::CommonOptions {
     float grain = 0.0F;             ///< deviation of display values in mid-tones
     bool dither = false;
     std::optional<double> gratings_ms;  ///< of the GPU, for all gratings of a frame; none: everything at its best
-    bool ambient_occlusion = true;  ///< and contact shadows
+    bool ambient_occlusion = true;      ///< and contact shadows
     bool soft_shadows = true;
     bool local_reflections = true;               ///< of the table and of objects
     bool rough_reflections = false;              ///< rough surfaces look the probe up in four directions

@@ -43,7 +43,8 @@ struct PinnedRecord {
     std::vector<CookedRung> cheaper;
 };
 /// `settings`: the members of the material's "quality" that pin the representation. The cheaper rungs are the same with
-/// fewer key lights, an arc table, and key lights alone. nullopt where the reference is black. `allows`: see ChoiceRules.
+/// fewer key lights, an arc table, and key lights alone. nullopt where the reference is black. `allows`: see
+/// ChoiceRules.
 std::optional<PinnedRecord> measure_pinned(const Material& material, const nlohmann::json& settings,
                                            std::span<const BudgetProbe> probes, std::span<const MeasuredViews> views,
                                            const std::function<bool(const Quality&)>& allows = {});

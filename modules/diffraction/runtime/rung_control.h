@@ -58,8 +58,8 @@ class RungControl final : public render::DrawControl {
     void choose(ecs::World& world, std::span<const render::LitEntity> seen, double gratings_ms);
     /// Begins, continues or ends the fade of an object that is seen, or changes one that is not at once.
     void step_fade(const render::LightMix& light, DrawnRung& drawn, SurfaceState& state) const;
-    /// Whether the frame should announce the programs of an object's rungs: at first, and every 64th frame, as the scene's
-    /// lights may ask for others.
+    /// Whether the frame should announce the programs of an object's rungs: at first, and every 64th frame, as the
+    /// scene's lights may ask for others.
     bool announces(const DrawnRung& drawn, ecs::Entity entity) const;
     std::uint64_t frame() const { return frame_; }
     const FrameBudgetReport& report() const { return report_; }

@@ -139,7 +139,8 @@ TEST_F(FrameBudgets, RungsFadeIntoEachOther) {
     }
     const std::vector<glm::vec4> cheapest = settle();
     EXPECT_LT(difference(before, cheapest), 1e-6F) << "the fade is over";
-    EXPECT_LT(largest, 2.1F / (kFadeFrames + 1) * difference(best, cheapest)) << "two steps in a frame, as time is exceeded";
+    EXPECT_LT(largest, 2.1F / (kFadeFrames + 1) * difference(best, cheapest))
+        << "two steps in a frame, as time is exceeded";
     EXPECT_EQ(renderer_.report().programs, programs) << "all rungs' programs were linked with the first";
 }
 

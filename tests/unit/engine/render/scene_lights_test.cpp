@@ -35,7 +35,8 @@ TEST(SceneLights, TheLightThatCastsTheShadowComesFirst) {
     EXPECT_EQ(lights.block.lights[3].strength.x, 4.0F);
     EXPECT_EQ(lights.shadow_light, glm::vec3(1.0F, 0.0F, 0.0F));
     EXPECT_EQ(lights.features(),
-              feature::kLights & ~(feature::kKeyLights | feature::kLocalProbe | feature::kLightPart | feature::kEffects));  // those are the probe's
+              feature::kLights & ~(feature::kKeyLights | feature::kLocalProbe | feature::kLightPart |
+                                   feature::kEffects));  // those are the probe's
 }
 
 TEST(SceneLights, AFrameHasTheFeaturesOfItsLightsOnly) {

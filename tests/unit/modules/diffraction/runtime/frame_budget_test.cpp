@@ -31,8 +31,8 @@ double exhaustive(const Objects& objects, double ms, std::size_t at = 0, double 
     return least;
 }
 
-/// Ladders as materials have them: each rung more expensive and better than the one before, over objects of very different
-/// size.
+/// Ladders as materials have them: each rung more expensive and better than the one before, over objects of very
+/// different size.
 Objects random_objects(std::mt19937& random, int count) {
     std::uniform_real_distribution<double> uniform(0.0, 1.0);
     Objects objects;
