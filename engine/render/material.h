@@ -161,6 +161,10 @@ class MaterialType {
     virtual bool owns(ecs::World& world, ecs::Entity entity) const = 0;
     /// The program that draws an owned entity; equal descriptions share one.
     virtual gpu::ProgramDesc program(ecs::World& world, ecs::Entity entity, ProbeSlot slot) const = 0;
+    /// While it is the same for an entity, so is its program(), which is then not asked for; 0: it may be another.
+    virtual std::uint64_t program_key(ecs::World& /*world*/, ecs::Entity /*entity*/, ProbeSlot /*slot*/) const {
+        return 0;
+    }
     /// A second program, with which an owned entity that passes light is drawn again, over itself; nullopt: none.
     virtual std::optional<gpu::ProgramDesc> overlay_program(ecs::World& world, ecs::Entity entity,
                                                             ProbeSlot slot) const;

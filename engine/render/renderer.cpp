@@ -96,6 +96,7 @@ void Renderer::set_effects(const Effects& effects) {
 void Renderer::reload_shaders(const std::filesystem::path& source_tree) {
     programs_.reload(source_tree);
     surface_programs_.clear();
+    type_programs_.clear();
     object_reflections_.reset();
 }
 
@@ -405,9 +406,14 @@ void Renderer::draw_sky(const Frame& frame) {
 
 const gpu::Program& Renderer::program_of(ecs::World& world, const Draw& draw, ProbeSlot slot) {
     if (draw.type == nullptr) return surface_program(kPlainShader, draw.features);
+    const std::uint64_t key = draw.type->program_key(world, draw.entity, slot);
+    const auto found = key == 0 ? type_programs_.end() : type_programs_.find({draw.type, key, draw.features});
+    if (found != type_programs_.end()) return *found->second;
     gpu::ProgramDesc desc = draw.type->program(world, draw.entity, slot);
     add_defines(draw.features, desc);
-    return programs_.get(desc);
+    const gpu::Program& program = programs_.get(desc);
+    if (key != 0) type_programs_.emplace(std::tuple(draw.type, key, draw.features), &program);
+    return program;
 }
 
 const gpu::Program* Renderer::overlay_program_of(ecs::World& world, const Draw& draw, ProbeSlot slot) {

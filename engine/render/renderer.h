@@ -11,6 +11,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -154,6 +155,8 @@ class Renderer {
     std::vector<std::unique_ptr<MaterialType>> types_;
     ProgramCache programs_;
     std::map<std::pair<std::string, SurfaceFeatures>, const gpu::Program*> surface_programs_;  ///< shortcut into it
+    /// The same by MaterialType::program_key().
+    std::map<std::tuple<const MaterialType*, std::uint64_t, SurfaceFeatures>, const gpu::Program*> type_programs_;
     gpu::VertexArray no_vertices_;
     std::vector<std::byte> staging_;  ///< of frame_data_
     gpu::StreamBuffer frame_data_;    ///< FrameBlock, LightBlock, ObjectBlocks and joint matrices

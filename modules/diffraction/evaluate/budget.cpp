@@ -76,6 +76,22 @@ std::vector<CookedRung> rungs_below(const MeasuredChoice& top, std::span<const M
     return rungs;
 }
 
+/// Those that the rules of a choice allow.
+std::vector<nlohmann::json> allowed(std::vector<nlohmann::json> settings, const Grating& grating,
+                                    const std::function<bool(const Quality&)>& allows) {
+    if (!allows) return settings;
+    std::erase_if(settings, [&](const nlohmann::json& candidate) {
+        const auto suited = suited_quality(candidate, grating);
+        const auto* quality = std::get_if<Quality>(&suited);
+        return quality == nullptr || !allows(*quality);
+    });
+    return settings;
+}
+
+int most_key_lights(std::span<const BudgetProbe> probes) {
+    return std::ranges::max(probes, {}, &BudgetProbe::key_lights).key_lights;
+}
+
 }  // namespace
 
 std::vector<nlohmann::json> budget_candidates(const Grating& grating, SurfaceShape surface, int key_light_limit) {
@@ -95,26 +111,6 @@ std::vector<nlohmann::json> budget_candidates(const Grating& grating, SurfaceSha
         }
     return list;
 }
-
-namespace {
-
-/// Those that the rules of a choice allow.
-std::vector<nlohmann::json> allowed(std::vector<nlohmann::json> settings, const Grating& grating,
-                                    const std::function<bool(const Quality&)>& allows) {
-    if (!allows) return settings;
-    std::erase_if(settings, [&](const nlohmann::json& candidate) {
-        const auto suited = suited_quality(candidate, grating);
-        const auto* quality = std::get_if<Quality>(&suited);
-        return quality == nullptr || !allows(*quality);
-    });
-    return settings;
-}
-
-int most_key_lights(std::span<const BudgetProbe> probes) {
-    return std::ranges::max(probes, {}, &BudgetProbe::key_lights).key_lights;
-}
-
-}  // namespace
 
 BudgetChoice choose_representation(const Material& material, std::span<const BudgetProbe> probes,
                                    std::span<const MeasuredViews> views, const std::string& file,

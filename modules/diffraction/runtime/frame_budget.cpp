@@ -69,7 +69,7 @@ class Search {
 
  private:
     void visit(std::size_t depth, double error, double ms_left) {
-        constexpr int kMostVisits = 20000;
+        constexpr int kMostVisits = 2000;
         if (ms_left < fastest_[depth] || ++visits_ > kMostVisits) return;
         if (error + least_[depth] - efficiency_ * ms_left >= best_error_ * (1.0 - 1e-9)) return;
         if (depth == order_.size()) {

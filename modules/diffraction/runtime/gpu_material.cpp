@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <string>
 #include <tuple>
@@ -22,6 +23,11 @@ namespace {
 /// Both sides of a sheet.
 bool passes_light(const Grating& grating) {
     return grating.transmission || grating.side_reflectance;
+}
+
+std::uint64_t next_number() {
+    static std::atomic<std::uint64_t> last{0};
+    return ++last;
 }
 
 /// A path below modules/diffraction/, as a define that names a file to include.
@@ -46,7 +52,8 @@ void add_samplers(gpu::ProgramDesc& desc, int samplers) {
 }  // namespace
 
 GpuMaterial::GpuMaterial(std::shared_ptr<const CookedMaterial> cooked, const glm::dmat3& xyz_to_working)
-    : cooked_(std::move(cooked)),
+    : number_(next_number()),
+      cooked_(std::move(cooked)),
       base_{.base_colour = cooked_->material.base.colour,
             .metallic = 0.0F,
             .roughness = cooked_->material.base.roughness,
@@ -80,6 +87,14 @@ gpu::ProgramDesc GpuMaterial::program(const SurfaceState& state) const {
     describe(state, desc);
     add_defines(state, desc);
     return desc;
+}
+
+std::uint64_t GpuMaterial::program_key(const SurfaceState& state) const {
+    std::uint64_t key = number_;
+    for (const bool bit : {state.without_map, state.flat.has_value(), state.grooves != nullptr,
+                           state.grooves && state.grooves->uv_set() == 1, state.grooves && state.grooves->has_gaps()})
+        key = 2 * key + (bit ? 1 : 0);
+    return key;
 }
 
 void GpuMaterial::add_defines(const SurfaceState& state, gpu::ProgramDesc& desc) const {

@@ -83,6 +83,8 @@ class GpuMaterial {
     virtual void update(const SurfaceObject& object, SurfaceLight& light, SurfaceState& state) const = 0;
 
     gpu::ProgramDesc program(const SurfaceState& state) const;
+    /// Of the material and what program() depends on in the state; not 0.
+    std::uint64_t program_key(const SurfaceState& state) const;
     /// The program must be in use.
     void bind(const gpu::Program& program, const SurfaceLight& light, const SurfaceState& state) const;
 
@@ -117,6 +119,7 @@ class GpuMaterial {
     bool shades_key_lights(const gpu::ProgramDesc& desc) const;
     std::string key_light_shader(const SurfaceState& state) const;
 
+    std::uint64_t number_;  ///< another for each material
     std::shared_ptr<const CookedMaterial> cooked_;
     std::shared_ptr<const GpuMaterial> reflected_;
     gpu::Limits limits_ = gpu::read_limits();

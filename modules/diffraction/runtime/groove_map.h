@@ -33,6 +33,7 @@ class GrooveMap {
     /// Radians at a vertex's texture coordinates, bilinear where the texture is.
     double rotation(const glm::vec2& uv) const;
     int uv_set() const { return use_.uv_set; }
+    bool has_gaps() const { return gaps_; }
     const image::ByteImage* image() const { return image_.get(); }
 
     /// `even`: whether the material's kernel is, k(−x) = k(x).

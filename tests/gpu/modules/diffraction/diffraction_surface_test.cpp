@@ -44,6 +44,34 @@ TEST_F(Surface, AnEntityKeepsItsPlaceWhenItsRepresentationChanges) {
 }
 
 /// Under light from everywhere grease shows what all orders reflect, wherever they go.
+/// Programs are found by their keys: two of one key are one program, whatever else differs.
+TEST_F(Surface, ProgramsAreToldApartByTheirKeys) {
+    std::set<std::uint64_t> keys{0};
+    for (const char* quality :
+         {R"({"representation": "spikes"})", R"({"representation": "arc"})", R"({"representation": "direct"})",
+          R"({"representation": "planar", "map_resolution": 32})",
+          R"({"representation": "circle", "map_resolution": 24})",
+          R"({"representation": "planar", "map_resolution": 32, "key_lights": 4})"}) {
+        const auto material = make_gpu_material(cook(kSlitCd, quality), glm::dmat3(1.0));
+        for (const bool flat : {false, true})
+            for (const bool without_map : {false, true}) {
+                SurfaceState state;
+                if (flat) state.flat = glm::dvec3(0.0, 1.0, 0.0);
+                state.without_map = without_map;
+                EXPECT_TRUE(keys.insert(material->program_key(state)).second) << quality;
+                SurfaceState other;
+                if (flat) other.flat = glm::dvec3(1.0, 0.0, 0.0);
+                other.without_map = without_map;
+                other.orientation = glm::mat3(2.0F);
+                other.tangent = glm::vec4(1.0F);
+                other.groove_rotation = 1.0F;
+                other.probe = 3;
+                EXPECT_EQ(material->program_key(other), material->program_key(state));
+                EXPECT_EQ(material->program(other).defines, material->program(state).defines);
+            }
+    }
+}
+
 TEST_F(Surface, GreaseScattersWhatTheGratingReflects) {
     mesh_ = flat_triangle();
     mesh_.uvs.assign(3, glm::vec2(0.0F));
