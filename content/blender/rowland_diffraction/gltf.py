@@ -1,4 +1,5 @@
-"""Writes and reads gratings, wear and boxes of light with Blender's own glTF exporter and importer, which call these classes."""
+"""Writes and reads gratings, wear and boxes of probes with Blender's own glTF exporter and importer, which call these
+classes."""
 
 import importlib
 import json

@@ -113,7 +113,6 @@ class Search {
         if (query_.first) {
             MeasuredChoice first{.settings = *query_.first, .quality = query_.material.quality, .baked = {}};
             bake(first);
-            first_price_ = first.price;
             if (measure_up_to(kAnyError, first)) add(std::move(first));
         }
         for (MeasuredChoice& choice : choices) {
@@ -121,8 +120,10 @@ class Search {
             bake(choice);
             step();
         }
-        if (query_.cheaper && query_.first)
-            std::erase_if(choices, [&](const MeasuredChoice& choice) { return choice.price >= first_price_; });
+        if (query_.cheaper && !state_.measured.empty())
+            std::erase_if(choices, [first_price = state_.measured.front().price](const MeasuredChoice& choice) {
+                return choice.price >= first_price;
+            });
         std::ranges::stable_sort(choices, {}, &MeasuredChoice::price);
         for (MeasuredChoice& choice : choices) {
             if (stop_.stop_requested() || found()) break;
@@ -249,7 +250,6 @@ class Search {
     colour::LightSpectra spectra_;
     CookedMaterial unbaked_;  ///< all but the tables
     int most_key_lights_ = 0;
-    double first_price_ = 0.0;  ///< price of query_.first
     std::vector<ProbeViews> probes_;
     std::map<std::string, std::shared_ptr<const CookedMaterial>> baked_;  ///< by settings without key_lights
     SearchState state_;

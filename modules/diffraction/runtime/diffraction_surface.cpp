@@ -19,9 +19,8 @@ namespace rowland::diffraction {
 namespace {
 
 /// Takes over what the object's program depends on, seen or not. Another material's data is dropped.
-/// `second_material`: of `state.second`.
-void take_surface(const DiffractionSurface& surface, const std::shared_ptr<const GpuMaterial>& second_material,
-                  const std::shared_ptr<const scene::Mesh>& mesh, bool skinned, SurfaceState& state) {
+void take_surface(const DiffractionSurface& surface, const std::shared_ptr<const scene::Mesh>& mesh, bool skinned,
+                  SurfaceState& state) {
     if (state.material != surface.material) {
         SurfaceState made;
         made.probe = state.probe;
@@ -45,11 +44,8 @@ void take_surface(const DiffractionSurface& surface, const std::shared_ptr<const
     state.groove_rotation = surface.groove_rotation;
     state.grooves = surface.grooves;
     if (state.reflected)
-        take_surface({surface.material->reflected(), surface.groove_rotation, surface.grooves}, nullptr, mesh, skinned,
+        take_surface({surface.material->reflected(), surface.groove_rotation, surface.grooves}, mesh, skinned,
                      *state.reflected);
-    if (state.second)
-        take_surface({second_material, surface.groove_rotation, surface.grooves}, nullptr, mesh, skinned,
-                     *state.second);
 }
 
 /// The same surface seen from its other side.
@@ -80,22 +76,22 @@ bool is_filling(const SurfaceState& state) {
            (state.second && is_filling(*state.second));
 }
 
-/// The surface as it is drawn in this frame.
+/// In each slot, the surface as it is drawn in this frame.
 void take(ecs::World& world, ecs::Entity entity) {
     DiffractionSurface surface = world.get<DiffractionSurface>(entity);
-    std::shared_ptr<const GpuMaterial> second = surface.material;
-    if (const DrawnRung* drawn = world.find<DrawnRung>(entity)) {
-        surface.material = drawn->material();
-        second = drawn->next_material();
-    }
-    take_surface(surface, second, world.get<render::MeshInstance>(entity).mesh,
-                 world.find<scene::Skin>(entity) != nullptr, world.get<SurfaceState>(entity));
+    const auto& mesh = world.get<render::MeshInstance>(entity).mesh;
+    const bool skinned = world.find<scene::Skin>(entity) != nullptr;
+    auto& state = world.get<SurfaceState>(entity);
+    const DrawnRung* drawn = world.find<DrawnRung>(entity);
+    if (drawn != nullptr) surface.material = drawn->material();
+    take_surface(surface, mesh, skinned, state);
+    if (!state.second) return;
+    if (drawn != nullptr) surface.material = drawn->next_material();
+    take_surface(surface, mesh, skinned, *state.second);
 }
 
 SurfaceState& state_of(ecs::World& world, ecs::Entity entity, render::ProbeSlot slot) {
-    auto& state = world.get<SurfaceState>(entity);
-    // One that is not seen has no second yet.
-    return slot == render::ProbeSlot::Second && state.second ? *state.second : state;
+    return world.get<SurfaceState>(entity).in(slot);
 }
 
 /// Gives each slot the data that the object has for its probe, though the other slot had it. `fades`: to another rung.
@@ -210,7 +206,7 @@ std::vector<gpu::ProgramDesc> DiffractionSurfaceType::later_programs(ecs::World&
     drawn->announced = control_->frame();
     for (const Rung& rung : *drawn->ladder) {
         SurfaceState as_rung;
-        take_surface({rung.material, state.groove_rotation, state.grooves}, nullptr, state.mesh,
+        take_surface({rung.material, state.groove_rotation, state.grooves}, state.mesh,
                      world.find<scene::Skin>(entity) != nullptr, as_rung);
         add(as_rung);
         if (as_rung.reflected) add(*as_rung.reflected);
@@ -248,11 +244,9 @@ void DiffractionSurfaceType::follow_budget(ecs::World& world, std::span<const re
     }
     if (!control_) control_ = std::make_unique<RungControl>(xyz_to_working_);
     control_->choose(world, seen, world.get<FrameBudget>(*holder).gratings_ms);
-    std::map<std::uint32_t, render::LightMix> lights;
-    for (const render::LitEntity& lit : seen) lights[lit.entity.index] = lit.light;
     int fading = 0;
-    world.view<DrawnRung, SurfaceState>().each([&](ecs::Entity entity, DrawnRung& drawn, SurfaceState& state) {
-        control_->step_fade(lights[entity.index], drawn, state);
+    world.view<DrawnRung, SurfaceState>().each([&](ecs::Entity, DrawnRung& drawn, SurfaceState& state) {
+        control_->step_fade(drawn, state);
         if (drawn.changes()) ++fading;
     });
     FrameBudgetReport report = control_->report();

@@ -49,6 +49,9 @@ struct SurfaceState {
     std::unique_ptr<SurfaceState> reflected;  ///< of GpuMaterial::reflected(), or null
     std::unique_ptr<SurfaceState> second;     ///< under the second probe, or of the rung that fades in; or null
     bool fades = false;                       ///< `second` is of another rung
+
+    /// One that is not seen has no second yet.
+    SurfaceState& in(render::ProbeSlot slot) { return slot == render::ProbeSlot::Second && second ? *second : *this; }
 };
 
 /// An object with a grating in this frame.

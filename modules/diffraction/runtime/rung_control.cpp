@@ -68,8 +68,7 @@ void RungControl::take(ecs::World& world, std::span<const gpu::MeteredRun> runs)
 }
 
 std::uint64_t RungControl::kind(ecs::World& world, ecs::Entity entity, render::ProbeSlot slot) const {
-    const auto& state = world.get<SurfaceState>(entity);
-    const SurfaceState& drawn = slot == render::ProbeSlot::Second && state.second ? *state.second : state;
+    const SurfaceState& drawn = world.get<SurfaceState>(entity).in(slot);
     return kind_of(*drawn.material, drawn.without_map);
 }
 
@@ -105,14 +104,14 @@ void RungControl::choose(ecs::World& world, std::span<const render::LitEntity> s
                 made.shown = made.wanted = made.ladder->size() - 1;
                 drawn = &world.add(entity, std::move(made));
             }
-            drawn->seen = false;
+            drawn->may_fade = false;
         });
     std::vector<Candidate> candidates;
     double fixed_ms = 0.0;
     for (const render::LitEntity& lit : seen) {
         DrawnRung* drawn = world.find<DrawnRung>(lit.entity);
         if (drawn == nullptr) continue;
-        drawn->seen = true;
+        drawn->may_fade = !lit.light.has_second();
         if (drawn->samples == 0.0) continue;
         const Candidate candidate{drawn, drawn->samples * (lit.light.has_second() ? 2.0 : 1.0)};
         if (drawn->fade_frame > 0)
@@ -165,13 +164,12 @@ void RungControl::write_report(std::span<const Candidate> candidates, double pre
     report_.least_error /= samples;
 }
 
-void RungControl::step_fade(const render::LightMix& light, DrawnRung& drawn, SurfaceState& state) const {
+void RungControl::step_fade(DrawnRung& drawn, SurfaceState& state) const {
     if (!drawn.changes()) return;
     const bool ready = state.fades && state.second && state.second->material == drawn.next_material() &&
                        state.second->light_version && !state.second->without_map;
     if (drawn.fade_frame > 0 || ready) drawn.fade_frame += fade_step_;
-    // Between two probes there is no slot for a fade.
-    if (drawn.seen && !light.has_second() && drawn.fade_frame <= kFadeFrames) return;
+    if (drawn.may_fade && drawn.fade_frame <= kFadeFrames) return;
     if (ready) {
         const auto second = std::move(state.second);
         state = std::move(*second);

@@ -34,7 +34,7 @@ struct DrawnRung {
     std::size_t wanted = 0;
     int fade_frame = 0;                           ///< of kFadeFrames; 0: it does not fade
     double samples = 0.0;                         ///< that the last draw covered
-    bool seen = false;                            ///< in the last frame
+    bool may_fade = false;                        ///< it is seen, and under one probe: another has the second slot
     std::optional<std::uint64_t> announced = {};  ///< frame in which later_programs() named the rungs' programs
 
     bool changes() const { return wanted != shown; }
@@ -56,8 +56,8 @@ class RungControl final : public render::DrawControl {
 
     /// Once a frame, before the objects are updated: gives each of them a DrawnRung.
     void choose(ecs::World& world, std::span<const render::LitEntity> seen, double gratings_ms);
-    /// Begins, continues or ends the fade of an object that is seen, or changes one that is not at once.
-    void step_fade(const render::LightMix& light, DrawnRung& drawn, SurfaceState& state) const;
+    /// Begins, continues or ends the fade of an object, or changes at once one that may not fade.
+    void step_fade(DrawnRung& drawn, SurfaceState& state) const;
     /// Whether the frame should announce the programs of an object's rungs: at first, and every 64th frame, as the
     /// scene's lights may ask for others.
     bool announces(const DrawnRung& drawn, ecs::Entity entity) const;

@@ -113,7 +113,7 @@ TEST(Budget, NothingCheaperWouldHaveDone) {
     EXPECT_GT(cheaper, 3);
 }
 
-/// What a frame may draw in place of the choice: each rung cheaper and worse than the next, with the errors that it
+/// What a frame may draw instead of the choice: each rung cheaper and worse than the next, with the errors that it
 /// has.
 TEST(Budget, KeepsTheCheaperRungsWithTheirErrors) {
     const std::vector<BudgetProbe> probes = {made_up()};
