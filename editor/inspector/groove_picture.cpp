@@ -43,7 +43,7 @@ double outward(const glm::dvec2& from_centre) {
 constexpr double kHexagon = 1.0 / (4.0 * std::numbers::sqrt3);
 constexpr int kHexagonsAcross = 7;
 
-/// Of the nearest hexagon's centre. Two corners point up and down.
+/// The rotation of the hexagon whose centre is nearest. Each has a corner at its top and one at its bottom.
 double hexagon_rotation(const glm::dvec2& at) {
     const double row_height = kHexagon * std::sqrt(3.0) / 2.0;
     glm::dvec2 index(0.0);
@@ -93,7 +93,7 @@ double radial_rotation(const glm::dvec2& at) {
 }
 
 struct FoilPattern {
-    double (*rotation)(const glm::dvec2& at);  ///< / π, at a position in heights from the lower left corner
+    double (*rotation)(const glm::dvec2& at);  ///< over π; `at`: from the lower left corner, in the picture's heights
     int width = kSize;                         ///< texels
 };
 

@@ -22,7 +22,7 @@ namespace rowland::inspector {
 
 namespace {
 
-constexpr double kSize = 0.116;  ///< metres: a compact disc's diameter
+constexpr double kSize = 0.116;  ///< metres: the diameter of the demo's disc, which lacks a compact disc's rim
 
 /// Rotates a plane in XZ with normal +Y into XY with normal +Z.
 scene::Mesh upright(scene::Mesh mesh) {

@@ -44,10 +44,11 @@ class View {
     bool looks_through = false;  ///< the chosen material is held before the camera as well
     bool shows_grooves = false;  ///< strokes along the grooves of the chosen material
 
-    /// PreviewShape::Model shows the scene; it is ignored without one.
+    /// PreviewShape::Model shows the document's scene; it is ignored if there is none.
     void choose_shape(PreviewShape shape);
     PreviewShape shape() const { return object_->shape; }
-    /// Picks the surface at a point of the last picture, if there is one; in a scene that chooses its material.
+    /// Picks the surface at a point of the last picture; does nothing where there is none. In a scene, this also
+    /// chooses the surface's material.
     void pick(const glm::vec2& at);
 
     /// Follows the document: another scene is shown as a whole, and another chosen material ends the pick. Call it
@@ -62,17 +63,18 @@ class View {
 
     const Preview& preview() const { return preview_; }
     const std::optional<PickedPixel>& picked() const { return picked_; }
-    /// In a scene: the picked point of the chosen material, or a visible point of it; nullopt: none was found.
+    /// The surface that was picked or, in a scene without a pick, a visible point of the chosen material; else nullopt.
     const std::optional<PickedSurface>& surface() const { return surface_; }
     /// The shading point of surface(), in the probe's axes; a new pointer whenever it changes. Null: no such surface.
     const std::shared_ptr<const diffraction::ShadingPoint>& point() const { return point_; }
-    /// Of point(), or of a visible point near the middle of the picture.
+    /// A shading point, and how the grooves lie around it.
     struct ViewedPoint {
         diffraction::ShadingPoint frame{};
         diffraction::GrooveLayout layout = diffraction::GrooveLayout::FlatUniform;
     };
+    /// point() or, if it is null, a visible point near the middle of the picture; the defaults if there is none.
     ViewedPoint point_or_middle();
-    /// Around the object's parts of the chosen material, with its radius in w, in the axes of the user's camera;
+    /// A sphere around the object's parts of the chosen material, its radius in w, in the axes of the user's camera;
     /// nullopt before they are drawn.
     std::optional<glm::vec4> chosen_sphere() {
         return preview_.sphere_of(object_->scene ? document_.document().chosen() : 0);

@@ -37,8 +37,8 @@ class Hasher {
     std::unique_ptr<XXH3_state_s, void (*)(XXH3_state_s*)> state_;
 };
 
-/// Bytes that the environment variable `name` allows a reader, which it gives in MiB: `least` MiB if it is not set.
-/// Throws Error (input) unless it is a whole number from `least` to `most`.
+/// A reader's limit in bytes: the environment variable `name`, which is in MiB, or `least` MiB if it is not set. Throws
+/// Error (input) unless the variable is a whole number from `least` to `most`.
 std::uint64_t memory_limit(const char* name, std::uint64_t least, std::uint64_t most);
 
 /// Reads a whole file. Throws Error (input) if it is missing, not a regular file, unreadable or larger than
@@ -66,12 +66,12 @@ void write_file_atomic(const std::filesystem::path& path, std::string_view text)
 /// The same with content that lies in parts.
 void write_file_atomic(const std::filesystem::path& path, std::span<const std::span<const std::byte>> parts);
 
-/// Throws the Error that write_file_atomic(path, ...) would throw before it writes: tries a file in the nearest folder
-/// that exists, and leaves nothing of it.
+/// Throws the Error with which write_file_atomic(path, ...) would fail before writing. It tries with a file in the
+/// nearest folder that exists, and removes it.
 void require_writable(const std::filesystem::path& path);
 
-/// An open file that one process at a time holds (flock), on folders that are shared by network as well. The system
-/// releases it when its owner ends in any way.
+/// An open file with a lock (flock) that only one FileLock holds at a time, across processes and network folders. The
+/// system releases it when the process ends in any way.
 class FileLock {
  public:
     /// nullopt if another process, or another lock of this one, holds it. Every caller gets it where the file system

@@ -26,7 +26,7 @@ constexpr std::uint64_t kMemoryPerByte = 192;
 
 }  // namespace
 
-/// Counts the time of an exchange.
+/// Adds the time from its construction to its destruction to the owner's used_.
 class DracoProcess::Timed {
  public:
     explicit Timed(DracoProcess& owner) : owner_(owner) { owner_.begin_ = steady_clock::now(); }
@@ -75,7 +75,7 @@ DracoProcess::Decoded DracoProcess::decode(std::span<const std::byte> stream) {
 }
 
 void DracoProcess::fetch(const DracoRequest& request, std::span<std::byte> result) {
-    ROWLAND_CHECK(process_.has_value(), "something decoded");
+    ROWLAND_CHECK(process_.has_value(), "results are fetched after decode()");
     const Timed timed(*this);
     ask(request, {});
     require_done(process_->receive(result, deadline()));

@@ -15,10 +15,10 @@
 
 namespace rowland::scene {
 
-/// What decoding may use at least; large streams get more in proportion to their size. Enough for anything small on a
-/// busy machine, and for the tables of 2 million triangles.
+/// Limits for a small stream; large streams get more in proportion to their size. Enough for anything small on a busy
+/// machine, and for the tables of 2 million triangles.
 struct DracoLimits {
-    std::chrono::steady_clock::duration time = std::chrono::seconds(3);  ///< for all streams, to which each adds
+    std::chrono::steady_clock::duration time = std::chrono::seconds(3);  ///< for a file; each stream adds to it
     std::uint64_t memory = 448ULL << 20;                                 ///< bytes of address space, with the libraries
 };
 
@@ -71,7 +71,7 @@ class DracoProcess {
 class DracoMesh {
  public:
     /// `pointer` is the stream's JSON pointer in `file`. The decoder holds the mesh, which can be read until the next
-    /// one is decoded. Throws Error (input).
+    /// one is decoded. Throws Error (input), and Error (system) if the decoder cannot be started.
     DracoMesh(std::span<const std::byte> stream, const std::string& file, const std::string& pointer,
               DracoProcess& decoder, MemoryBudget& budget);
     DracoMesh(const DracoMesh&) = delete;

@@ -16,12 +16,13 @@ namespace rowland::scene {
 namespace {
 
 constexpr float kPi = std::numbers::pi_v<float>;
+/// At density 1, per square metre.
 constexpr float kScratchesPerArea = 170'000.0F;
 constexpr float kPrintsPerArea = 400.0F;
 constexpr float kSpecksPerArea = 3e6F;
 constexpr float kFibresPerArea = 6'000.0F;
 
-/// The distributions of the standard library are not the same everywhere.
+/// Random numbers that are the same on all systems, as the standard library's distributions are not.
 class Random {
  public:
     explicit Random(std::uint32_t seed) : generator_(seed) {}
@@ -35,7 +36,8 @@ class Random {
     std::mt19937 generator_;
 };
 
-/// Coverage in texels; x: dust, y: grease, zw: scratches. What leaves one side enters at the other.
+/// The fraction of each texel that marks cover; x: dust, y: grease, zw: scratches, by the cosine and sine of twice
+/// their angle. What leaves one side enters at the other.
 class Canvas {
  public:
     explicit Canvas(float size_m) : texel_m_(size_m / kWearTexels), texels_(std::size_t{kWearTexels} * kWearTexels) {}
@@ -88,7 +90,7 @@ struct Line {
     float width;
 };
 
-/// Adds a line whose ends taper. `area_of`: of the angle, what a unit of area adds.
+/// Adds a line whose ends taper. `area_of(angle)` is what each unit of area adds where the line has that direction.
 template <typename AreaOf>
 void draw_line(Random& random, const Line& line, const AreaOf& area_of, Canvas& canvas) {
     constexpr float kStep = 0.5F;  // texels
@@ -130,7 +132,8 @@ void draw_disc(const glm::vec2& middle, float radius, const glm::vec4& coverage,
 void draw_dust(float area, float density, Random& random, Canvas& canvas) {
     constexpr glm::vec4 kDust(1.0F, 0.0F, 0.0F, 0.0F);
     for (auto left = static_cast<int>(kSpecksPerArea * area * density); left > 0; --left) {
-        // Few are large: radii from 15 to 137 micrometres, whose density falls with their cube.
+        // Few are large: the radii are from 15 to 137 micrometres, with a probability density that falls with the
+        // radius cubed.
         const float radius = 15e-6F / std::sqrt(1.0F - 0.988F * random()) / canvas.texel_m();
         const glm::vec2 middle = static_cast<float>(kWearTexels) * glm::vec2(random(), random());
         if (radius < 0.6F)
@@ -162,7 +165,7 @@ void draw_print(Random& random, Canvas& canvas) {
         wave = {random.between(-1.1F, 1.1F), random.between(-1.1F, 1.1F), random.between(0.0F, 2.0F * kPi)};
     const glm::vec2 along(std::cos(angle), std::sin(angle));
     const float texel_mm = 1e3F * canvas.texel_m();
-    // Neither a surface smaller than a finger nor one on which it is smaller than a texel needs more.
+    // At most half the map, so that a print larger than the surface does not overlap itself.
     const int reach = std::min(static_cast<int>(half.y / texel_mm) + 1, kWearTexels / 2);
     for (int row = -reach; row < reach; ++row)
         for (int column = -reach; column < reach; ++column) {

@@ -87,7 +87,7 @@ void InputFeed::feed_mouse(const platform::InputState& input, ImGuiIO& io) {
         io.MouseDown[i] = down_[i];
     }
     seen_ = position;
-    // ImGui's word for "no mouse".
+    // How ImGui is told that there is no mouse.
     constexpr float kNowhere = -std::numeric_limits<float>::max();
     const glm::vec2 shown(position);
     io.MousePos = input.focused() ? ImVec2(shown.x, shown.y) : ImVec2(kNowhere, kNowhere);
@@ -95,7 +95,7 @@ void InputFeed::feed_mouse(const platform::InputState& input, ImGuiIO& io) {
 
 namespace {
 
-/// ImGui divides by the time between frames.
+/// ImGui is told at least this time between frames, as it divides by it.
 constexpr double kShortestFrame_s = 1e-4;
 constexpr float kFontSize = 15.0F;         ///< pixels at scale 1
 constexpr float kBuiltInFontSize = 13.0F;  ///< of ImGui's own font
@@ -208,7 +208,7 @@ void Ui::begin_frame(const platform::InputState& input, const UiFrame& frame) {
         scale_changed_ = false;
         ImGui::GetStyle() = make_style(scale_);
         load_font(io, scale_);
-        // Not all of its objects: ImGui 1.86 would take its new, empty buffers for as large as the old.
+        // Only the font: if all objects were rebuilt, ImGui 1.86 would take the empty buffers to be as large as before.
         ImGui_ImplOpenGL3_DestroyFontsTexture();
         if (has_drawn_) ImGui_ImplOpenGL3_CreateFontsTexture();  // else NewFrame makes it
     }
@@ -233,7 +233,7 @@ bool Ui::wants_mouse() const {
 bool Ui::wants_keyboard() const {
     ImGui::SetCurrentContext(context_);
     const ImGuiIO& io = ImGui::GetIO();
-    // A window keeps ImGui's own wish for keys after a click into it; ours ends when nothing is highlighted or typed.
+    // Not WantCaptureKeyboard, which stays true after a click into a window when no control is selected.
     return io.WantTextInput || io.NavVisible;
 }
 
@@ -247,7 +247,7 @@ void Ui::render() {
     ImGui::SetCurrentContext(context_);
     in_frame_ = false;
     ImGui::Render();
-    // The backend leaves all state as it was, at the price of 50 calls: not for nothing.
+    // Skipped if there is nothing to draw: the backend saves and restores OpenGL's state, which takes 50 calls.
     if (ImDrawData* drawn = ImGui::GetDrawData(); drawn->TotalVtxCount > 0) ImGui_ImplOpenGL3_RenderDrawData(drawn);
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <type_traits>
 #include <vector>
 
 /// A function that the page's worker calls.
@@ -13,9 +14,10 @@ namespace rowland::web {
 /// What a call gives back: a list of numbers, which the worker copies and releases.
 using Numbers = std::vector<float>;
 
-/// Appends values that are made of floats.
+/// Appends a value that consists of floats alone, such as a glm::vec3.
 template <typename Value>
 void append(const Value& value, Numbers& numbers) {
+    static_assert(std::is_trivially_copyable_v<Value>);
     static_assert(sizeof(Value) % sizeof(float) == 0);
     const auto* floats = reinterpret_cast<const float*>(&value);
     numbers.insert(numbers.end(), floats, floats + sizeof(Value) / sizeof(float));

@@ -22,11 +22,11 @@ namespace rowland::diffraction {
 
 /// How long frames wait for maps.
 enum class MapPace {
-    Incremental,  ///< for coarse maps under new light, kMapWait in all; never for full ones
+    Incremental,  ///< for coarse maps under new light, at most MapCache's longest_wait in all; never for full ones
     Whole,        ///< for full maps, always. For pictures in files
 };
 
-/// The longest that a frame waits for coarse maps.
+/// The longest that a frame waits for coarse maps, by default.
 inline constexpr std::chrono::milliseconds kMapWait{250};
 
 /// What a map is filled from, besides its material.
@@ -36,7 +36,7 @@ struct MapInput {
     std::optional<glm::dvec3> grating{};  ///< g of all its points, in the world; none: they differ
 };
 
-/// Axes may differ by what does not show at a map's resolution.
+/// Whether one map serves both: their axes may differ by less than shows at a map's resolution.
 bool same_map(const MapInput& a, const MapInput& b);
 
 enum class MapDetail { Coarse, Full };
@@ -52,7 +52,7 @@ struct FilledMap {
 /// unusable map.
 using FillMap = std::function<FilledMap(const MapInput&, MapDetail, const std::stop_token&)>;
 
-/// Fills maps one after the other, on a thread that the first one starts.
+/// Fills maps one after the other, on a thread that the first add() starts.
 class FillQueue {
  public:
     struct Job {
@@ -68,7 +68,7 @@ class FillQueue {
     /// Throws Error (system) if no thread can be started.
     std::shared_ptr<Job> add(std::function<FilledMap(const std::stop_token&)> fill);
     bool is_done(const Job& job) const;
-    /// Returns after at most so long; is_done() says whether the job is. nullopt: when it is.
+    /// Waits until the job is done, for at most `longest`; nullopt: without a limit.
     void wait(const Job& job, std::optional<std::chrono::nanoseconds> longest) const;
 
  private:
@@ -81,7 +81,7 @@ class FillQueue {
     std::jthread thread_;
 };
 
-/// The map of all objects of a material that are lit alike: its state on the GPU.
+/// The state on the GPU of the one map of all objects with the same `fill` and `input`.
 struct SharedMap {
     std::shared_ptr<const FillMap> fill;
     MapInput input;
@@ -108,17 +108,19 @@ class MapCache {
         : pace_(pace), longest_wait_(longest_wait) {}
 
     MapPace pace() const { return pace_; }
-    /// Before the frame's objects are updated: takes over what was filled, uploads a part of it, and gives up what the
-    /// last frame did not use. Throws Error (system) if a map cannot be filled.
+    /// Call before the frame's objects are updated: takes over what was filled and uploads a part of it, stops the
+    /// fills that the last frame did not use, and starts those of full maps. Throws Error (system) if a fill failed.
     void begin_frame();
-    /// The map of an input.
+    /// The map of an input: one for which same_map() holds, else a new one that is not filled yet.
     std::shared_ptr<SharedMap> find(const std::shared_ptr<const FillMap>& fill, const MapInput& input);
-    /// An object that is seen has the map. `wait`: it has no other.
+    /// Call for the map of each object that is seen: starts its fill. `wait`: the frame may wait for the coarse map, as
+    /// the object has no other. Under MapPace::Whole it always waits for the full one. Throws Error (system) if the
+    /// fill failed.
     void use(SharedMap& map, bool wait);
 
  private:
     void begin(SharedMap& map, MapDetail detail);
-    /// If it is filled.
+    /// Takes over the map if its job is done.
     void take(SharedMap& map);
     void upload(SharedMap& map, int slices);
     FillQueue& queue(MapDetail detail) { return detail == MapDetail::Coarse ? coarse_ : full_; }
@@ -137,8 +139,8 @@ class MapCache {
 /// object that turns in every frame has coarse maps.
 class ObjectMap {
  public:
-    /// Call in each frame in which the object is seen. `may_wait`: the frame, for the first map. Throws Error (system)
-    /// if a map cannot be filled.
+    /// Call in each frame in which the object is seen. `may_wait`: whether the frame may wait for the object's first
+    /// map. Throws Error (system) if a map cannot be filled.
     void update(const std::shared_ptr<const FillMap>& fill, const MapInput& input, MapCache& cache, bool may_wait);
 
     /// Null: there is none under this light.

@@ -17,7 +17,7 @@ namespace rowland::thin_film {
 
 /// A film material file: a film, the thicknesses and roughnesses that its surface has, and the light it is baked for.
 struct FilmMaterial {
-    Film film;         ///< its outermost layer is as thick as the thickest
+    Film film;         ///< its outermost layer has the thickness range.thickest_nm
     TableRange range;  ///< one thickness and one roughness, unless a texture varies them
     colour::Illuminant illuminant = colour::d65();
 };
@@ -27,7 +27,7 @@ struct FilmMaterial {
 FilmMaterial parse_film_material(const nlohmann::json& json, const std::string& file, const std::string& pointer = "");
 FilmMaterial parse_film_material(JsonReader& reader);
 
-/// "metal", or "base" with its index, of an object that has one of them. Throws Error (input).
+/// Reads "metal" or "base", exactly one of which the object must have. Throws Error (input).
 Base parse_base(JsonReader& json);
 
 inline constexpr NumberRange kFilmIndex{.minimum = 1.0, .maximum = 10.0};
@@ -53,8 +53,9 @@ std::vector<std::byte> write_cooked_film(const nlohmann::json& json, const Cooke
 /// Inverse of write_cooked_film for untrusted bytes. Throws Error (input).
 CookedFilm read_cooked_film(std::span<const std::byte> payload, const std::string& file);
 
-/// The tables of a glTF material's film. They do not hold what the film lies on.
 inline constexpr std::uint32_t kGltfFilmVersion = 1;
+
+/// The payload of a glTF material's film: its table, without what the film lies on.
 std::vector<std::byte> write_gltf_film(const FilmMaterial& material, const FilmTable& table);
 
 /// Inverse of write_gltf_film for untrusted bytes. Throws Error (input).

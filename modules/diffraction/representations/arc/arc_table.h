@@ -24,8 +24,8 @@ enum class LightTerms : std::uint8_t {
 };
 
 /// The coefficients of TransferTerms as a product (the principal components that the paper suggests, PHYSICS §5):
-/// c_k,o,c(v) ≈ Σ_r w_r(v) U_r,k,c,o. A vertex computes the XYZ values p_r = Σ_k U_r,k q_k from the light's numbers q;
-/// a pixel computes Σ_r w_r(v) p_r.
+/// c_k,o,c(v) ≈ Σ_r w_r(v) U_r,k,c,o; o: X, Y or Z, c: red, green or blue. The CPU computes p_r = Σ_k U_r,k q_k, in
+/// XYZ, for each vertex from the light's numbers q; a pixel computes Σ_r w_r(v) p_r.
 ///
 /// w: a 2D texture array of ⌈R/4⌉ layers over views; layer j holds w_4j … w_4j+3. With a pitch axis the texture's rows
 /// are pitches instead of the views' second coordinate: t = (log(f/smallest)/log(largest/smallest)·(H−1) + ½)/H for the
@@ -66,12 +66,12 @@ struct ArcSettings {
 /// not flat. The bytes do not depend on the number of threads.
 ArcTable bake(const Grating& grating, const ArcSettings& settings);
 
-/// The vertex's part: the XYZ values p_r. `light_terms`: the K arc moments or SH coefficients of the light in the
-/// tangent frame.
+/// The part of a vertex, for the CPU: the XYZ values p_r. `light_terms`: the K arc moments or SH coefficients of the
+/// light in the tangent frame.
 std::vector<glm::dvec3> light_products(const ArcTable& table, std::span<const glm::dvec3> light_terms);
 
-/// The pixel's part: XYZ = Σ_r w_r p_r; 0 for v_n ≤ 0. The pitch factor is for tables with a pitch axis, and clamped to
-/// its ends.
+/// The part of a pixel: XYZ = Σ_r w_r p_r; 0 for v_n ≤ 0. The pitch factor is for tables with a pitch axis, and clamped
+/// to its ends.
 glm::dvec3 shade(const ArcTable& table, std::span<const glm::dvec3> products, const glm::dvec3& view,
                  double pitch_factor = 1.0);
 

@@ -24,7 +24,7 @@ struct StreakMapSize {
 };
 
 /// A probe blurred to a narrow lobe: linear RGB over the direction s and over the tangent t along which it is blurred
-/// (PHYSICS (6.9)). It depends on the lobe's length alone; objects and gratings do not matter. A volume texture with
+/// (PHYSICS (6.8)). It depends on the lobe's length alone; objects and gratings do not matter. A volume texture with
 /// levels, GL_LINEAR_MIPMAP_LINEAR:
 ///   chart 0 holds the upper half (s_y ≥ 0), chart 1 the lower, mirrored; both side by side, with a rim beyond the
 ///   equator; stereographic: p = (s_x, s_z)/(1 + |s_y|)
