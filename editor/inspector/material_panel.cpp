@@ -9,7 +9,7 @@
 #include <string>
 #include <utility>
 
-#include "editor/inspector/groove_picture.h"
+#include "editor/inspector/groove_texture.h"
 #include "editor/inspector/panels.h"
 
 namespace rowland::inspector {

@@ -66,7 +66,7 @@ std::optional<PricedChoice> cheapest_within(const PriceList& list, double max_er
 }
 
 bool Measurement::update() {
-    if (std::exchange(followed_, document_.replacements()) != document_.replacements()) {
+    if (std::exchange(last_replacements_, document_.replacements()) != document_.replacements()) {
         all_prices_.reset();
         pinned_price_.reset();
     }

@@ -125,7 +125,7 @@ class Measurement {
     const LightChoice& light_;
     View& view_;
     Messages& messages_;
-    std::size_t followed_ = 0;              ///< replacements of the document in the last update()
+    std::size_t last_replacements_ = 0;     ///< document_.replacements() in the last update()
     std::optional<PriceInputs> requested_;  ///< by measure_all()
     std::optional<PriceInputs> stopped_;    ///< by stop_pricing()
     std::optional<double> budget_;          ///< requested by cook_to_budget()

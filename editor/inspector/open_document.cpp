@@ -6,7 +6,7 @@
 #include <array>
 #include <utility>
 
-#include "editor/inspector/groove_picture.h"
+#include "editor/inspector/groove_texture.h"
 #include "engine/core/error.h"
 #include "engine/core/file.h"
 #include "engine/core/json_reader.h"
@@ -158,7 +158,7 @@ void OpenDocument::replace(Document document, std::shared_ptr<const PreviewObjec
 
 void OpenDocument::replace(OpenedScene opened) {
     auto object = std::make_shared<const PreviewObject>(
-        PreviewObject{PreviewShape::Model, upload(*opened.object), opened.object});
+        PreviewObject{PreviewShape::Scene, upload(*opened.object), opened.object});
     replace(std::move(opened.document), std::move(object));
     const std::string file = document_.name();
     for (const std::string& warning : scene()->imported.warnings) messages_.say(file + ": " + warning);
@@ -245,11 +245,11 @@ void OpenDocument::remove() {
 void OpenDocument::use_picture(std::vector<std::byte> picture, const std::string& name) {
     if (document_.is_scene() && document_.has_film())
         return set_texture(field_at("/iridescenceThicknessTexture"), std::move(picture), name);
-    set_groove_picture(as_groove_picture(picture, name),
+    set_groove_texture(as_groove_texture(picture, name),
                        std::filesystem::path(name).replace_extension(".png").string());
 }
 
-void OpenDocument::set_groove_picture(std::vector<std::byte> picture, const std::string& name) {
+void OpenDocument::set_groove_texture(std::vector<std::byte> picture, const std::string& name) {
     if (!document_.is_scene() || !document_.has_grating())
         refuse_input(name, {}, "a picture", "a scene with a grating or a film on the chosen material",
                      "open a .gltf or .glb, choose a material and attach a grating or a film; the picture then varies "
@@ -269,7 +269,7 @@ void OpenDocument::set_texture(const Field& field, std::vector<std::byte> pictur
 }
 
 void OpenDocument::set_foil_pattern(const std::string& name) {
-    messages_.attempt([&] { set_groove_picture(foil_pattern(name), name + ".png"); });
+    messages_.attempt([&] { set_groove_texture(foil_pattern(name), name + ".png"); });
 }
 
 void OpenDocument::cook(Cooking& cooking, const std::shared_ptr<const MaterialSource>& source) {

@@ -77,7 +77,7 @@ class OpenDocument {
     /// Sets the grating or the film of the scene's chosen material from JSON text; removes it.
     void paste(const std::string& text);
     void remove();
-    /// Sets a foil pattern (groove_picture.h) as the groove texture of the chosen material.
+    /// Sets a foil pattern (groove_texture.h) as the groove texture of the chosen material.
     void set_foil_pattern(const std::string& name);
 
     /// Call it every frame. Returns whether there is a new document, surface or message.
@@ -118,7 +118,7 @@ class OpenDocument {
     bool take_opened(const Opening::Change& change);
     void cook(Cooking& cooking, const std::shared_ptr<const MaterialSource>& source);
     void use_picture(std::vector<std::byte> picture, const std::string& name);
-    void set_groove_picture(std::vector<std::byte> picture, const std::string& name);
+    void set_groove_texture(std::vector<std::byte> picture, const std::string& name);
     void set_texture(const Field& field, std::vector<std::byte> picture, const std::string& name);
 
     std::filesystem::path presets_;

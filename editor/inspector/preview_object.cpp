@@ -123,10 +123,10 @@ scene::Mesh preview_mesh(PreviewShape shape) {
                 upright(scene::build_mesh(scene::PlaneRecipe{.width = kWidth, .depth = kSize, .subdivisions = 96})),
                 kWidth, kAngle);
         }
-        case PreviewShape::Model:
+        case PreviewShape::Scene:
             break;
     }
-    check_failed(__FILE__, __LINE__, "a model's mesh is the user's");
+    check_failed(__FILE__, __LINE__, "a scene has meshes of its own");
 }
 
 float fitting_scale(const scene::Bounds& box) {

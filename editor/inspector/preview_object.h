@@ -28,16 +28,16 @@ struct Stage {
     friend bool operator==(const Stage&, const Stage&) = default;
 };
 
-/// The body that carries the material.
-enum class PreviewShape { Disc, Sphere, Card, Sheet, Model };
+/// What carries the material: a shape, or the document's scene.
+enum class PreviewShape { Disc, Sphere, Card, Sheet, Scene };
 inline constexpr std::array kPreviewShapes = {PreviewShape::Disc, PreviewShape::Sphere, PreviewShape::Card,
-                                              PreviewShape::Sheet, PreviewShape::Model};
+                                              PreviewShape::Sheet, PreviewShape::Scene};
 
-/// "disc", "sphere", "card", "sheet", "model".
+/// "disc", "sphere", "card", "sheet" or, for Scene, "model": the names in saved layouts.
 const char* preview_shape_name(PreviewShape shape);
 std::optional<PreviewShape> parse_preview_shape(std::string_view name);
 
-/// The mesh of a shape other than Model, about 0.1 m in size, at the origin. The disc is the demo's and lies in XZ; the
+/// The mesh of a shape other than Scene, about 0.1 m in size, at the origin. The disc is the demo's and lies in XZ; the
 /// card stands in XY; the sheet is a card bent around the vertical by 120°, with the grating vector around the bend.
 scene::Mesh preview_mesh(PreviewShape shape);
 

@@ -27,7 +27,7 @@ ImVec2 on_screen(const glm::vec2& at, const ImVec2& corner, const ImVec2& size) 
 
 /// `corner`, `size`: of the picture.
 std::optional<Knob> knob_of(const Document& document, const View& view, const ImVec2& corner, const ImVec2& size) {
-    if (!view.shows_grooves || view.shape() != PreviewShape::Model || !view.surface() || !document.has_grating())
+    if (!view.shows_grooves || view.shape() != PreviewShape::Scene || !view.surface() || !document.has_grating())
         return std::nullopt;
     const Preview& preview = view.preview();
     const PickedSurface surface = preview.under_current_rotation(*view.surface());
@@ -84,7 +84,7 @@ void draw_shape_picker(View& view, bool has_scene, ControlMap& controls) {
     ImGui::SetNextItemWidth(5.2F * ImGui::GetFontSize());
     if (ImGui::BeginCombo("##shape", preview_shape_name(view.shape()))) {
         for (const PreviewShape shape : kPreviewShapes) {
-            if (shape == PreviewShape::Model && !has_scene) continue;
+            if (shape == PreviewShape::Scene && !has_scene) continue;
             if (ImGui::Selectable(preview_shape_name(shape), shape == view.shape())) view.choose_shape(shape);
             controls.mark(std::string("shape=") + preview_shape_name(shape));
         }

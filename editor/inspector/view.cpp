@@ -15,7 +15,7 @@ View::View(const post::OcioConfig& config, bool still, OpenDocument& document, c
 }
 
 void View::choose_shape(PreviewShape shape) {
-    if (shape == PreviewShape::Model) {
+    if (shape == PreviewShape::Scene) {
         if (!document_.object()) return;
         object_ = document_.object();
     } else {
@@ -35,14 +35,14 @@ void View::forget_point() {
 void View::update() {
     const std::size_t chosen = document_.document().chosen();
     const std::size_t replacements = document_.replacements();
-    if (std::exchange(followed_, replacements) != replacements) {
+    if (std::exchange(last_replacements_, replacements) != replacements) {
         if (document_.object())
-            choose_shape(PreviewShape::Model);
+            choose_shape(PreviewShape::Scene);
         else if (object_->scene)
             choose_shape(PreviewShape::Disc);
         forget_point();
     }
-    if (std::exchange(chosen_, chosen) != chosen) forget_point();
+    if (std::exchange(last_chosen_, chosen) != chosen) forget_point();
 }
 
 void View::pick(const glm::vec2& at) {
@@ -50,7 +50,7 @@ void View::pick(const glm::vec2& at) {
     if (!surface) return;
     if (object_->scene && surface->material) {
         document_.document().choose(*surface->material);
-        chosen_ = *surface->material;
+        last_chosen_ = *surface->material;
     }
     surface_ = surface;
     point_ = std::make_shared<const diffraction::ShadingPoint>(surface->frame);

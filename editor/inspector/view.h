@@ -44,7 +44,7 @@ class View {
     bool looks_through = false;  ///< the chosen material is held before the camera as well
     bool shows_grooves = false;  ///< strokes along the grooves of the chosen material
 
-    /// PreviewShape::Model shows the document's scene; it is ignored if there is none.
+    /// PreviewShape::Scene shows the document's scene; it is ignored if there is none.
     void choose_shape(PreviewShape shape);
     PreviewShape shape() const { return object_->shape; }
     /// Picks the surface at a point of the last picture; does nothing where there is none. In a scene, this also
@@ -102,8 +102,8 @@ class View {
     Messages& messages_;
     Preview preview_;
     std::shared_ptr<const PreviewObject> object_;
-    std::size_t followed_ = 0;  ///< replacements of the document in the last update()
-    std::size_t chosen_ = 0;    ///< material in the last update()
+    std::size_t last_replacements_ = 0;  ///< document_.replacements() in the last update()
+    std::size_t last_chosen_ = 0;        ///< material in the last update()
     std::optional<PickedPixel> picked_;
     std::optional<PickedSurface> surface_;
     std::shared_ptr<const diffraction::ShadingPoint> point_;

@@ -188,7 +188,7 @@ std::vector<Command> Workbench::commands() {
         result.push_back({"View", preview_shape_name(shape), fmt::format("Ctrl+{}", i + 1),
                           static_cast<Key>(static_cast<std::size_t>(Key::Digit1) + i),
                           [this, shape] { session_.view.choose_shape(shape); },
-                          shape != PreviewShape::Model || session_.opened.scene() != nullptr,
+                          shape != PreviewShape::Scene || session_.opened.scene() != nullptr,
                           shape == session_.view.shape()});
     }
     const std::vector<Command> view_and_help = {

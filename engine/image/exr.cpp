@@ -83,7 +83,7 @@ std::string list_channels(const Imf::ChannelList& channels) {
     return text.empty() ? "no channels" : "channels " + text;
 }
 
-ChannelNames check_channels(const Imf::ChannelList& channels, const std::string& file) {
+ChannelNames usable_channels(const Imf::ChannelList& channels, const std::string& file) {
     const auto names = pick_channels(channels);
     if (!names) refuse_input(file, "channels", list_channels(channels), "R, G and B, or X, Y and Z, or Y");
     for (const std::string& name : *names) {
@@ -135,7 +135,7 @@ Image read_part(Imf::InputPart& part, const std::string& file) {
     if (Imf::hasEnvmap(header) && Imf::envmap(header) == Imf::ENVMAP_CUBE)
         refuse_input(file, "envmap", "a cube map", "an equirectangular (latitude-longitude) or angular map",
                      "convert it, for example with exrenvmap -l");
-    const ChannelNames names = check_channels(header.channels(), file);
+    const ChannelNames names = usable_channels(header.channels(), file);
     const std::optional<glm::dmat3> to_rec709 = conversion(header, names, file);
 
     // The header's check has limited the size.

@@ -14,7 +14,7 @@ namespace rowland::lighting {
 
 namespace {
 
-bool is_image_file(const std::filesystem::path& path) {
+bool is_probe_image_file(const std::filesystem::path& path) {
     std::string extension = path.extension().string();
     std::transform(extension.begin(), extension.end(), extension.begin(),
                    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
@@ -25,7 +25,7 @@ image::Image read_image(cook::Context& context, const std::filesystem::path& pat
     return image::decode_image(context.read(path, image::kMaximumFileBytes), path.string());
 }
 
-std::string read_text(cook::Context& context, const std::filesystem::path& path) {
+std::string read_illuminant_file(cook::Context& context, const std::filesystem::path& path) {
     const std::vector<std::byte> bytes = context.read(path, colour::kMaximumIlluminantBytes);
     return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
@@ -33,8 +33,9 @@ std::string read_text(cook::Context& context, const std::filesystem::path& path)
 std::pair<ProbeRecipe, ProbeImage> make_probe(cook::Context& context) {
     const std::string file = context.source().string();
     ProbeRecipe recipe = parse_probe_recipe(context.read_json(context.source()), file);
-    load_illuminant(recipe,
-                    [&context](const std::string& name) { return read_text(context, context.beside_source(name)); });
+    load_illuminant(recipe, [&context](const std::string& name) {
+        return read_illuminant_file(context, context.beside_source(name));
+    });
     ProbeImage probe = render_recipe(
         recipe, [&context](const std::string& name) { return read_image(context, context.beside_source(name)); }, file);
     return {std::move(recipe), std::move(probe)};
@@ -65,7 +66,9 @@ cook::AssetType probe_type() {
 cook::AssetType probe_image_type() {
     cook::AssetType type;
     type.name = "probe image";
-    type.recognises = [](const std::filesystem::path& source, const nlohmann::json*) { return is_image_file(source); };
+    type.recognises = [](const std::filesystem::path& source, const nlohmann::json*) {
+        return is_probe_image_file(source);
+    };
     type.check = [](cook::Context& context) { read_image(context, context.source()); };
     return type;
 }

@@ -152,7 +152,7 @@ void draw_dust(float area, float density, Random& random, Canvas& canvas) {
 }
 
 /// A finger's ridges around a core, millimetres. The skin touches in patches, and its outline is an ellipse.
-void draw_print(Random& random, Canvas& canvas) {
+void draw_fingerprint(Random& random, Canvas& canvas) {
     constexpr float kRidge = 0.45F;
     const glm::vec2 half(random.between(6.5F, 8.5F), random.between(9.0F, 12.0F));
     const glm::vec2 middle = static_cast<float>(kWearTexels) * glm::vec2(random(), random());
@@ -192,7 +192,7 @@ image::ByteImage wear_map(const Wear& wear) {
     Canvas canvas(wear.size_m);
     const float area = wear.size_m * wear.size_m;
     for (auto left = std::lround(kPrintsPerArea * area * wear.fingerprints); left > 0; --left)
-        draw_print(random, canvas);
+        draw_fingerprint(random, canvas);
     draw_dust(area, wear.dust, random, canvas);
     draw_scratches(kScratchesPerArea * area * wear.scratches, random, canvas);
     return canvas.encoded();

@@ -135,7 +135,7 @@ void Comparison::update() {
 void Comparison::show(ecs::Entity grating) {
     Looks& looks = looks_of_grating(grating);
     DiffractionSurface& surface = world_.get<DiffractionSurface>(grating);
-    if (const auto wanted = variants_.find(looks.own, surface.grooves, looks.flat(), looks.left)) {
+    if (const auto wanted = variants_.find_or_bake(looks.own, surface.grooves, looks.flat(), looks.left)) {
         surface.material = wanted;
         looks.assigned = wanted;
     }
@@ -145,7 +145,7 @@ GpuMaterialPointer Comparison::material_of_copy(ecs::Entity grating) {
     Looks& looks = looks_of_grating(grating);
     const auto& grooves = world_.get<DiffractionSurface>(grating).grooves;
     if (!looks.right_material) looks.right_material = looks.own;
-    if (const auto wanted = variants_.find(looks.own, grooves, looks.flat(), looks.right))
+    if (const auto wanted = variants_.find_or_bake(looks.own, grooves, looks.flat(), looks.right))
         looks.right_material = wanted;
     if (!reference_picture_ || grooves) return looks.right_material;
     if (looks.picture != reference_picture_ || looks.picture_own != looks.own) {

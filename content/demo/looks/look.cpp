@@ -12,17 +12,17 @@ namespace rowland::demo {
 
 namespace {
 
-/// For each representation, the settings that the detail changes, at coarse, medium and fine detail. Other settings
-/// keep their defaults. Every representation has an entry.
-using Details = std::map<std::string, std::array<int, 3>>;
+/// Settings by name, each at coarse, medium and fine detail.
+using SettingsByDetail = std::map<std::string, std::array<int, 3>>;
 
-const Details& details_of(const std::string& representation) {
-    static const std::map<std::string, Details> all{{"spikes", {{"bands", {3, 5, 8}}, {"spikes", {4, 4, 8}}}},
-                                                    {"arc", {{"bands", {3, 5, 8}}, {"rank", {4, 8, 16}}}},
-                                                    {"direct", {}},
-                                                    {"planar", {{"map_resolution", {32, 128, 256}}}},
-                                                    {"circle", {{"map_resolution", {16, 48, 104}}}},
-                                                    {"streak", {{"map_resolution", {128, 192, 320}}}}};
+/// The settings that the detail changes. Others keep their defaults. Every representation has an entry.
+const SettingsByDetail& details_of(const std::string& representation) {
+    static const std::map<std::string, SettingsByDetail> all{{"spikes", {{"bands", {3, 5, 8}}, {"spikes", {4, 4, 8}}}},
+                                                             {"arc", {{"bands", {3, 5, 8}}, {"rank", {4, 8, 16}}}},
+                                                             {"direct", {}},
+                                                             {"planar", {{"map_resolution", {32, 128, 256}}}},
+                                                             {"circle", {{"map_resolution", {16, 48, 104}}}},
+                                                             {"streak", {{"map_resolution", {128, 192, 320}}}}};
     return all.at(representation);
 }
 
@@ -92,9 +92,9 @@ Look next_detail(const Look& look) {
     return next;
 }
 
-GpuMaterialPointer Variants::find(const GpuMaterialPointer& own,
-                                  const std::shared_ptr<const diffraction::GrooveMap>& grooves, bool flat,
-                                  const Look& look) {
+GpuMaterialPointer Variants::find_or_bake(const GpuMaterialPointer& own,
+                                          const std::shared_ptr<const diffraction::GrooveMap>& grooves, bool flat,
+                                          const Look& look) {
     if (look.own()) return own;
     for (const auto& variant : variants_)
         if (variant->own.lock() == own && variant->grooves == grooves && variant->look == look)

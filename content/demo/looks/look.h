@@ -59,8 +59,9 @@ class Variants {
 
     /// `own` in that look; null while it is baked, and if the look does not suit it. `grooves` and `flat` as in
     /// LookSubject.
-    GpuMaterialPointer find(const GpuMaterialPointer& own, const std::shared_ptr<const diffraction::GrooveMap>& grooves,
-                            bool flat, const Look& look);
+    GpuMaterialPointer find_or_bake(const GpuMaterialPointer& own,
+                                    const std::shared_ptr<const diffraction::GrooveMap>& grooves, bool flat,
+                                    const Look& look);
     /// To be called once per frame: uploads what was baked, starts the next bake, and drops unused variants.
     void poll();
     bool baking() const;

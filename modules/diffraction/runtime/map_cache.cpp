@@ -93,7 +93,7 @@ void SharedMap::bind(const gpu::Program& program) const {
     if (set_uniforms) set_uniforms(program);
 }
 
-std::shared_ptr<SharedMap> MapCache::find(const std::shared_ptr<const FillMap>& fill, const MapInput& input) {
+std::shared_ptr<SharedMap> MapCache::find_or_add(const std::shared_ptr<const FillMap>& fill, const MapInput& input) {
     const auto found =
         std::ranges::find_if(maps_, [&](const auto& map) { return map->fill == fill && same_map(map->input, input); });
     if (found != maps_.end()) return *found;
@@ -178,7 +178,7 @@ void ObjectMap::update(const std::shared_ptr<const FillMap>& fill, const MapInpu
     const bool changed = may_change && !(of_light && same_map(wanted_->input, input));
     if (of_light && wanted_->shown) shown_ = wanted_;
     if (shown_ && (shown_->fill != fill || shown_->input.texels != input.texels)) shown_.reset();
-    if (changed) wanted_ = cache.find(fill, input);
+    if (changed) wanted_ = cache.find_or_add(fill, input);
     cache.use(*wanted_, may_wait && changed && !shown_);
     if (wanted_->shown) shown_ = wanted_;
 }

@@ -112,7 +112,7 @@ class MapCache {
     /// fills that the last frame did not use, and starts those of full maps. Throws Error (system) if a fill failed.
     void begin_frame();
     /// The map of an input: one for which same_map() holds, else a new one that is not filled yet.
-    std::shared_ptr<SharedMap> find(const std::shared_ptr<const FillMap>& fill, const MapInput& input);
+    std::shared_ptr<SharedMap> find_or_add(const std::shared_ptr<const FillMap>& fill, const MapInput& input);
     /// Call for the map of each object that is seen: starts its fill. `wait`: the frame may wait for the coarse map, as
     /// the object has no other. Under MapPace::Whole it always waits for the full one. Throws Error (system) if the
     /// fill failed.

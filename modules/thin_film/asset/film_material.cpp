@@ -15,13 +15,13 @@ namespace rowland::thin_film {
 
 namespace {
 
-constexpr NumberRange kBaseIndex{.minimum = 0.01, .maximum = 100.0};
-constexpr NumberRange kExtinction{.minimum = 0.0, .maximum = 100.0};
+constexpr NumberRange kBaseIndexRange{.minimum = 0.01, .maximum = 100.0};
+constexpr NumberRange kExtinctionRange{.minimum = 0.0, .maximum = 100.0};
 
 Layer parse_layer(JsonReader& json) {
-    const double ior = json.number("ior", kFilmIndex);
-    const Layer layer{.index = {ior, json.number_or("k", 0.0, kExtinction)},
-                      .thickness_nm = json.number("thickness_nm", kThickness_nm)};
+    const double ior = json.number("ior", kFilmIndexRange);
+    const Layer layer{.index = {ior, json.number_or("k", 0.0, kExtinctionRange)},
+                      .thickness_nm = json.number("thickness_nm", kThicknessRange_nm)};
     json.finish();
     return layer;
 }
@@ -44,8 +44,8 @@ Base parse_base(JsonReader& json) {
     };
     const auto read_index = [&](JsonReader& reader) {
         JsonReader base = reader.object("base");
-        const double ior = base.number("ior", kBaseIndex);
-        result = std::complex<double>(ior, base.number_or("k", 0.0, kExtinction));
+        const double ior = base.number("ior", kBaseIndexRange);
+        result = std::complex<double>(ior, base.number_or("k", 0.0, kExtinctionRange));
         base.finish();
     };
     json.alternatives("metal", read_metal, read_index);
@@ -149,8 +149,9 @@ FilmTable read_gltf_film(std::span<const std::byte> tables, const std::string& f
     for (double* value : {&range.thinnest_nm, &range.thickest_nm, &range.smoothest, &range.roughest})
         *value = reader.value<double>();
     const auto within = [](double low, double value, double high) { return low <= value && value <= high; };
-    if (!within(kFilmIndex.minimum, index, kFilmIndex.maximum) || !within(0.0, range.thinnest_nm, range.thickest_nm) ||
-        !within(0.0, range.thickest_nm, kThickness_nm.maximum) || !within(0.0, range.smoothest, range.roughest) ||
+    if (!within(kFilmIndexRange.minimum, index, kFilmIndexRange.maximum) ||
+        !within(0.0, range.thinnest_nm, range.thickest_nm) ||
+        !within(0.0, range.thickest_nm, kThicknessRange_nm.maximum) || !within(0.0, range.smoothest, range.roughest) ||
         !within(0.0, range.roughest, 1.0))
         reader.fail("a film outside its limits", "those of KHR_materials_iridescence");
     FilmTable table = empty_table({.layers = {{.index = index, .thickness_nm = range.thickest_nm}}, .base = {}}, range,

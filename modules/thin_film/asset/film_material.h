@@ -30,8 +30,8 @@ FilmMaterial parse_film_material(JsonReader& reader);
 /// Reads "metal" or "base", exactly one of which the object must have. Throws Error (input).
 Base parse_base(JsonReader& json);
 
-inline constexpr NumberRange kFilmIndex{.minimum = 1.0, .maximum = 10.0};
-inline constexpr NumberRange kThickness_nm{.minimum = 0.0, .maximum = 1e5};
+inline constexpr NumberRange kFilmIndexRange{.minimum = 1.0, .maximum = 10.0};
+inline constexpr NumberRange kThicknessRange_nm{.minimum = 0.0, .maximum = 1e5};
 
 /// Bakes the table, in a size for the range. Throws nothing for what parse_film_material() gives.
 FilmTable bake_film(const FilmMaterial& material);

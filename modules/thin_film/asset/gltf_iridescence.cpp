@@ -73,11 +73,11 @@ GltfIridescence parse_gltf_iridescence(const nlohmann::json& json, const std::st
     GltfIridescence read;
     read.factor = reader.number_or("iridescenceFactor", read.factor, {.minimum = 0.0, .maximum = 1.0});
     read.factor_texture = parse_texture(reader, "iridescenceTexture");
-    read.ior = reader.number_or("iridescenceIor", read.ior, kFilmIndex);
+    read.ior = reader.number_or("iridescenceIor", read.ior, kFilmIndexRange);
     read.minimum_thickness_nm =
-        reader.number_or("iridescenceThicknessMinimum", read.minimum_thickness_nm, kThickness_nm);
+        reader.number_or("iridescenceThicknessMinimum", read.minimum_thickness_nm, kThicknessRange_nm);
     read.maximum_thickness_nm =
-        reader.number_or("iridescenceThicknessMaximum", read.maximum_thickness_nm, kThickness_nm);
+        reader.number_or("iridescenceThicknessMaximum", read.maximum_thickness_nm, kThicknessRange_nm);
     read.thickness_texture = parse_texture(reader, "iridescenceThicknessTexture");
     if (reader.has("extras") && reader.raw("extras").is_object()) {
         JsonReader extras = reader.object("extras");

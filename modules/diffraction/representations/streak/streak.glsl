@@ -49,7 +49,7 @@ float square_n(float s_g, float s_h) { return max(1.0 - s_g * s_g - s_h * s_h, 1
 // Of the light at (s_g, s_h).
 vec3 lobe_position(float s_g, float s_h, float up, mat3 axes) {
     float s_n = sqrt(square_n(s_g, s_h));
-    return streak_position(axes * vec3(s_g, s_h, s_n), axes[1] * s_n - axes[2] * s_h, up);
+    return chart_coordinates(axes * vec3(s_g, s_h, s_n), axes[1] * s_n - axes[2] * s_h, up);
 }
 
 vec3 segment_radiance(int i, StreakView at, GrooveView view) {

@@ -7,7 +7,7 @@
 #include <set>
 
 #include "editor/inspector/document.h"
-#include "editor/inspector/groove_picture.h"
+#include "editor/inspector/groove_texture.h"
 #include "engine/core/file.h"
 #include "engine/image/byte_image.h"
 #include "tests/support/expect.h"
@@ -250,7 +250,7 @@ TEST_F(SceneDocument, EditsAreRescuedAsAWholeScene) {
     EXPECT_EQ(nlohmann::json(rescued.json(1)), nlohmann::json(document.json(1)));
 }
 
-TEST(GroovePicture, EachHexagonOfFoilHasADirectionAndTheMaterialsPitch) {
+TEST(GrooveTexture, EachHexagonOfFoilHasADirectionAndTheMaterialsPitch) {
     const image::ByteImage image = image::decode_byte_image(foil_pattern("hexagons"), "hexagons");
     std::set<int> directions;
     for (std::size_t i = 0; i < image.rgba.size(); i += 4) {
@@ -261,7 +261,7 @@ TEST(GroovePicture, EachHexagonOfFoilHasADirectionAndTheMaterialsPitch) {
     EXPECT_LT(directions.size(), 90U);  // 7 times 8 cells, and halves of some
 }
 
-TEST(GroovePicture, ARadialPatternsGratingVectorPointsAwayFromTheMiddle) {
+TEST(GrooveTexture, ARadialPatternsGratingVectorPointsAwayFromTheMiddle) {
     const image::ByteImage image = image::decode_byte_image(foil_pattern("radial"), "radial");
     const auto rotation_at = [&](double x, double y) {  // from the middle, y up
         const auto column = static_cast<std::size_t>((0.5 + x) * image.width);
@@ -275,12 +275,12 @@ TEST(GroovePicture, ARadialPatternsGratingVectorPointsAwayFromTheMiddle) {
     }
 }
 
-TEST(GroovePicture, APicturesBrightnessTurnsTheGroovesAndAGrooveTextureStays) {
+TEST(GrooveTexture, APicturesBrightnessTurnsTheGroovesAndAGrooveTextureStays) {
     const std::vector<std::uint8_t> rgba = {0, 0, 0, 255, 255, 255, 255, 255, 128, 128, 128, 0};
-    const auto made = image::decode_byte_image(as_groove_picture(image::encode_png(3, 1, 4, rgba), "p"), "p");
+    const auto made = image::decode_byte_image(as_groove_texture(image::encode_png(3, 1, 4, rgba), "p"), "p");
     EXPECT_EQ(made.rgba, (std::vector<std::uint8_t>{0, 128, 0, 255, 255, 128, 0, 255, 128, 0, 0, 255}));
     const auto grooves = foil_pattern("tiles");
-    EXPECT_EQ(as_groove_picture(grooves, "tiles"), grooves);
+    EXPECT_EQ(as_groove_texture(grooves, "tiles"), grooves);
 }
 
 }  // namespace

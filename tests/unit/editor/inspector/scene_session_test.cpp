@@ -67,7 +67,7 @@ TEST_F(SceneSession, OpensInTheBackgroundAndShowsItsOwnMaterials) {
     EXPECT_EQ(session_.opened.scene(), nullptr);
     draw_until_open();
     EXPECT_TRUE(session_.opened.opening().empty());
-    EXPECT_EQ(session_.view.shape(), PreviewShape::Model);
+    EXPECT_EQ(session_.view.shape(), PreviewShape::Scene);
     const auto shown = picture();
     const glm::vec4 left = shown[pixel(0.3, 0.5)];
     const glm::vec4 right = shown[pixel(0.7, 0.5)];

@@ -254,7 +254,7 @@ TEST_F(SessionTest, AModelIsDrawnInPlaceOfAnotherInAnIdleInspector) {
         write_file_atomic(path(name), file.dump());
     }
     session_.open(path("wide.gltf"));
-    draw_until([&] { return session_.view.shape() == PreviewShape::Model && session_.view.ready(); });
+    draw_until([&] { return session_.view.shape() == PreviewShape::Scene && session_.view.ready(); });
     draw(100);
     const auto wide = display();
     session_.open(path("tall.gltf"));

@@ -18,6 +18,6 @@ std::vector<std::byte> foil_pattern(std::string_view name);
 /// Converts a PNG or JPEG to a groove texture, PNG. A picture whose blue is 0 everywhere is one already and is returned
 /// unchanged. Of others the brightness rotates the grooves, from 0 (black) to 180° (white); transparent texels have no
 /// grating. Throws Error (input) naming `name` if it cannot be read.
-std::vector<std::byte> as_groove_picture(std::vector<std::byte> picture, const std::string& name);
+std::vector<std::byte> as_groove_texture(std::vector<std::byte> picture, const std::string& name);
 
 }  // namespace rowland::inspector

@@ -1,4 +1,4 @@
-#include "editor/inspector/groove_picture.h"
+#include "editor/inspector/groove_texture.h"
 
 #include <cmath>
 #include <cstdint>
@@ -119,18 +119,18 @@ std::vector<std::byte> foil_pattern(std::string_view name) {
     return image::encode_png(pattern.width, kSize, 3, rgb);
 }
 
-std::vector<std::byte> as_groove_picture(std::vector<std::byte> picture, const std::string& name) {
+std::vector<std::byte> as_groove_texture(std::vector<std::byte> picture, const std::string& name) {
     image::ByteImage image = image::decode_byte_image(picture, name);
     std::vector<std::uint8_t> rgb;
     rgb.reserve(image.rgba.size() / 4 * 3);
-    bool grooves = true;
+    bool is_groove_texture = true;
     for (std::size_t i = 0; i < image.rgba.size(); i += 4) {
-        grooves = grooves && image.rgba[i + 2] == 0;
+        is_groove_texture = is_groove_texture && image.rgba[i + 2] == 0;
         const double luma = 0.2126 * image.rgba[i] + 0.7152 * image.rgba[i + 1] + 0.0722 * image.rgba[i + 2];
         const bool opaque = image.rgba[i + 3] >= 128;
         rgb.insert(rgb.end(), {static_cast<std::uint8_t>(std::lround(luma)), opaque ? kOwnPitch : std::uint8_t{0}, 0});
     }
-    return grooves ? std::move(picture) : image::encode_png(image.width, image.height, 3, rgb);
+    return is_groove_texture ? std::move(picture) : image::encode_png(image.width, image.height, 3, rgb);
 }
 
 }  // namespace rowland::inspector
