@@ -83,8 +83,7 @@ std::vector<SceneMaterial> materials_of(const scene::ImportedScene& imported) {
         if (!instance.material) continue;
         SceneMaterial& material = materials[*instance.material];
         material.tangents = std::max(material.tangents, imported.tangents[instance.mesh]);
-        const bool listed = !material.meshes.empty() && material.meshes.back() == instance.name;
-        if (!listed) material.meshes.push_back(instance.name);
+        material.meshes.push_back(instance.name);
     }
     for (SceneMaterial& material : materials) {
         std::ranges::sort(material.meshes);

@@ -267,14 +267,6 @@ void create_folder(const std::filesystem::path& path) {
     if (code) fail_action(path, "creating the folder", code.value());
 }
 
-void require_writable(const std::filesystem::path& path) {
-    require_no_device(path);
-    std::error_code ignored;
-    std::filesystem::path folder = std::filesystem::absolute(path, ignored).parent_path();
-    while (!std::filesystem::exists(folder, ignored) && folder.has_relative_path()) folder = folder.parent_path();
-    const Replacement attempt(folder / "file");
-}
-
 void write_file_atomic(const std::filesystem::path& path, std::span<const std::span<const std::byte>> parts) {
     require_no_device(path);
     if (path.has_parent_path()) create_folder(path.parent_path());
@@ -316,6 +308,16 @@ std::vector<std::string> keys_of(const std::filesystem::path& path) {
     struct stat status = {};
     if (::stat(path.c_str(), &status) == 0) keys.push_back(fmt::format("{}:{}", status.st_dev, status.st_ino));
     return keys;
+}
+
+/// Throws the Error with which write_file_atomic(path, ...) would fail before writing. It tries with a file in the
+/// nearest folder that exists, and removes it.
+void require_writable(const std::filesystem::path& path) {
+    require_no_device(path);
+    std::error_code ignored;
+    std::filesystem::path folder = std::filesystem::absolute(path, ignored).parent_path();
+    while (!std::filesystem::exists(folder, ignored) && folder.has_relative_path()) folder = folder.parent_path();
+    const Replacement attempt(folder / "file");
 }
 
 }  // namespace

@@ -66,10 +66,6 @@ void write_file_atomic(const std::filesystem::path& path, std::string_view text)
 /// The same with content that lies in parts.
 void write_file_atomic(const std::filesystem::path& path, std::span<const std::span<const std::byte>> parts);
 
-/// Throws the Error with which write_file_atomic(path, ...) would fail before writing. It tries with a file in the
-/// nearest folder that exists, and removes it.
-void require_writable(const std::filesystem::path& path);
-
 /// An open file with a lock (flock) that only one FileLock holds at a time, across processes and network folders. The
 /// system releases it when the process ends in any way.
 class FileLock {

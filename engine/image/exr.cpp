@@ -148,33 +148,6 @@ Image read_part(Imf::InputPart& part, const std::string& file) {
     return image;
 }
 
-/// Writes `count` floats per texel ("RGB" or "RGBA"). ZIP is deterministic and lossless.
-void write_floats(const std::filesystem::path& path, int width, int height, const float* texels, std::size_t count) {
-    ROWLAND_CHECK_OP(width, >=, 1);
-    ROWLAND_CHECK_OP(height, >=, 1);
-    constexpr std::array<const char*, 4> kNames = {"R", "G", "B", "A"};
-    Imf::StdOSStream stream;
-    try {
-        Imf::Header header(width, height);
-        header.compression() = Imf::ZIP_COMPRESSION;
-        Imf::FrameBuffer buffer;
-        for (std::size_t c = 0; c < count; ++c) {
-            header.channels().insert(kNames[c], Imf::Channel(Imf::FLOAT));
-            buffer.insert(kNames[c],
-                          Imf::Slice::Make(Imf::FLOAT, texels + c, {0, 0}, width, height, sizeof(float) * count,
-                                           sizeof(float) * count * static_cast<std::size_t>(width)));
-        }
-        Imf::OutputFile file(stream, header, 0);
-        file.setFrameBuffer(buffer);
-        file.writePixels(height);
-    } catch (const std::bad_alloc&) {
-        throw;
-    } catch (const std::exception& error) {
-        fail_system(path.string(), fmt::format("encoding OpenEXR failed: {}", error.what()));
-    }
-    write_file_atomic(path, stream.str());
-}
-
 }  // namespace
 
 bool is_exr(std::span<const std::byte> bytes) {
@@ -203,14 +176,30 @@ Image read_exr(std::span<const std::byte> bytes, const std::string& file) {
 }
 
 void write_exr(const std::filesystem::path& path, const Image& image) {
-    ROWLAND_CHECK_OP(image.texels.size(), ==,
-                     static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height));
-    write_floats(path, image.width, image.height, reinterpret_cast<const float*>(image.texels.data()), 3);
-}
-
-void write_exr(const std::filesystem::path& path, int width, int height, std::span<const glm::vec4> texels) {
-    ROWLAND_CHECK_OP(texels.size(), ==, static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
-    write_floats(path, width, height, reinterpret_cast<const float*>(texels.data()), 4);
+    ROWLAND_CHECK_OP(image.width, >=, 1);
+    ROWLAND_CHECK_OP(image.height, >=, 1);
+    const auto width = static_cast<std::size_t>(image.width);
+    ROWLAND_CHECK_OP(image.texels.size(), ==, width * static_cast<std::size_t>(image.height));
+    const auto* const floats = reinterpret_cast<const float*>(image.texels.data());
+    Imf::StdOSStream stream;
+    try {
+        Imf::Header header(image.width, image.height);
+        header.compression() = Imf::ZIP_COMPRESSION;  // deterministic and lossless
+        Imf::FrameBuffer buffer;
+        for (std::size_t c = 0; c < kRgb.size(); ++c) {
+            header.channels().insert(kRgb[c], Imf::Channel(Imf::FLOAT));
+            buffer.insert(kRgb[c], Imf::Slice::Make(Imf::FLOAT, floats + c, {0, 0}, image.width, image.height,
+                                                    sizeof(glm::vec3), sizeof(glm::vec3) * width));
+        }
+        Imf::OutputFile file(stream, header, 0);
+        file.setFrameBuffer(buffer);
+        file.writePixels(image.height);
+    } catch (const std::bad_alloc&) {
+        throw;
+    } catch (const std::exception& error) {
+        fail_system(path.string(), fmt::format("encoding OpenEXR failed: {}", error.what()));
+    }
+    write_file_atomic(path, stream.str());
 }
 
 }  // namespace rowland::image

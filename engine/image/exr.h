@@ -3,7 +3,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
-#include <glm/vec4.hpp>
 #include <span>
 #include <string>
 
@@ -21,10 +20,9 @@ Image read_exr(std::span<const std::byte> bytes, const std::string& file);
 /// True if the bytes begin as an OpenEXR file does.
 bool is_exr(std::span<const std::byte> bytes);
 
-/// Writes 32-bit float RGB or RGBA (width·height texels, row by row from the top), ZIP-compressed, atomically. The same
-/// texels give the same bytes. Throws Error (system) if writing fails.
+/// Writes 32-bit float RGB, ZIP-compressed, atomically. The same texels give the same bytes. Throws Error (system) if
+/// writing fails.
 void write_exr(const std::filesystem::path& path, const Image& image);
-void write_exr(const std::filesystem::path& path, int width, int height, std::span<const glm::vec4> texels);
 
 /// Checks the headers of all parts of an OpenEXR file before OpenEXR reads them. Throws Error (input) naming `file` and
 /// the byte where the library would allocate more than the file can hold: attributes longer than the file, images over

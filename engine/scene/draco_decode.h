@@ -77,8 +77,7 @@ class DracoMesh {
     DracoMesh(const DracoMesh&) = delete;
     DracoMesh& operator=(const DracoMesh&) = delete;
 
-    std::size_t vertex_count() const { return decoded_.points; }
-    /// Three per triangle, each below vertex_count().
+    /// Three per triangle, each below the number of vertices.
     std::vector<std::uint32_t> indices() const;
     /// Number of components of the attribute with Draco's unique id `id`; `name` is for messages. Throws Error (input)
     /// if there is none.

@@ -59,11 +59,12 @@ bool either_down(const platform::InputState& input, Key left, Key right) {
     return was_down(input.key(left)) || was_down(input.key(right));
 }
 
-}  // namespace
-
+/// Tells ImGui which keys edit text and move through controls. ImGui then uses our key numbers.
 void map_keys(ImGuiIO& io) {
     for (const EditingKey& editing : kEditingKeys) io.KeyMap[editing.imgui] = static_cast<int>(editing.key);
 }
+
+}  // namespace
 
 void InputFeed::feed(const platform::InputState& input, ImGuiIO& io) {
     for (int key = 0; key < static_cast<int>(Key::Count); ++key)
@@ -142,8 +143,7 @@ void set_colours(ImGuiStyle& style) {
     set(ImGuiCol_NavHighlight, accent(1.0F));
 }
 
-}  // namespace
-
+/// The style of all our programs: dark and neutral, so that it does not affect the perception of colours beside it.
 ImGuiStyle make_style(float scale) {
     ImGuiStyle style;
     set_colours(style);
@@ -159,6 +159,8 @@ ImGuiStyle make_style(float scale) {
     return style;
 }
 
+/// Loads the font at `scale`: DejaVu Sans with Greek letters, arrows and mathematical signs; or ImGui's own, with Latin
+/// letters only, if the system does not have it.
 void load_font(ImGuiIO& io, float scale) {
     io.Fonts->Clear();
     // Checked first, since ImGui asserts that the file exists.
@@ -172,6 +174,8 @@ void load_font(ImGuiIO& io, float scale) {
     config.SizePixels = std::round(kBuiltInFontSize * scale);
     io.Fonts->AddFontDefault(&config);
 }
+
+}  // namespace
 
 Ui::Ui(float scale) : context_(ImGui::CreateContext()) {
     ImGui::SetCurrentContext(context_);

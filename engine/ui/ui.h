@@ -8,12 +8,8 @@
 
 struct ImGuiContext;
 struct ImGuiIO;
-struct ImGuiStyle;
 
 namespace rowland::ui {
-
-/// Tells ImGui which keys edit text and move through controls. ImGui then uses our key numbers.
-void map_keys(ImGuiIO& io);
 
 /// Passes a frame's keys, text and mouse to ImGui, which takes one state of each per frame. At low frame rates no click
 /// or drag is lost: a button pressed and released within a frame is down in it, at the position of the press; a drag
@@ -28,13 +24,6 @@ class InputFeed {
     std::array<bool, 3> down_{};  ///< mouse buttons, as last passed
     glm::dvec2 seen_{0.0};        ///< mouse position, as last passed
 };
-
-/// The style of all our programs: dark and neutral, so that it does not affect the perception of colours beside it.
-ImGuiStyle make_style(float scale);
-
-/// Loads the font at `scale`: DejaVu Sans with Greek letters, arrows and mathematical signs; or ImGui's own, with Latin
-/// letters only, if the system does not have it.
-void load_font(ImGuiIO& io, float scale);
 
 inline constexpr float kSmallestScale = 0.5F;
 inline constexpr float kLargestScale = 4.0F;

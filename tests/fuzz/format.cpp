@@ -68,8 +68,9 @@ void read_draco(Input bytes) {
     scene::MemoryBudget budget("input.drc");
     scene::DracoProcess decoder;
     const scene::DracoMesh mesh(bytes, "input.drc", "stream", decoder, budget);
-    for (const std::uint32_t index : mesh.indices()) ROWLAND_CHECK_OP(index, <, mesh.vertex_count());
-    ROWLAND_CHECK_OP(mesh.vectors<glm::vec3>(0, "POSITION").size(), ==, mesh.vertex_count());
+    const std::vector<std::uint32_t> indices = mesh.indices();
+    const std::vector<glm::vec3> positions = mesh.vectors<glm::vec3>(0, "POSITION");
+    for (const std::uint32_t index : indices) ROWLAND_CHECK_OP(index, <, positions.size());
 }
 
 void require_whole(const image::Image& image) {

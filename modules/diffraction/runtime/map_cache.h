@@ -104,8 +104,7 @@ struct SharedMap {
 /// the full ones of those that are seen, and frames upload them. A map that no object has is dropped.
 class MapCache {
  public:
-    explicit MapCache(MapPace pace, std::chrono::milliseconds longest_wait = kMapWait)
-        : pace_(pace), longest_wait_(longest_wait) {}
+    MapCache(MapPace pace, std::chrono::milliseconds longest_wait) : pace_(pace), longest_wait_(longest_wait) {}
 
     MapPace pace() const { return pace_; }
     /// Call before the frame's objects are updated: takes over what was filled and uploads a part of it, stops the

@@ -180,7 +180,7 @@ TEST_F(MapFillingTest, UnderNewLightNoFrameShowsTheOldOneNorWaitsForTheFullMap) 
 }
 
 TEST_F(MapFillingTest, AStillWaitsForTheFullMapOfEveryInput) {
-    cache_ = std::make_unique<MapCache>(MapPace::Whole);
+    cache_ = std::make_unique<MapCache>(MapPace::Whole, 0ms);
     for (const double normal : {1.0, 2.0, 2.0}) {
         full_maps_.release();
         update(normal);
