@@ -39,9 +39,16 @@ double outward(const glm::dvec2& from_centre) {
     return fraction(2.0 * angle_of(from_centre));
 }
 
-// The width of a hexagon. Two rows of hexagons are √3 widths high, so the pattern repeats without a seam.
+// The width of a hexagon. Two rows of hexagons are √3 widths high, so eight rows fill the picture's height. The
+// rotations repeat with the picture, so that it has no seam.
 constexpr double kHexagon = 1.0 / (4.0 * std::numbers::sqrt3);
 constexpr int kHexagonsAcross = 7;
+constexpr int kHexagonRows = 8;
+
+/// The remainder of a whole number, from 0 to `period` - 1.
+double modulo(double number, int period) {
+    return number - period * std::floor(number / period);
+}
 
 /// The rotation of the hexagon whose centre is nearest. Each has a corner at its top and one at its bottom.
 double hexagon_rotation(const glm::dvec2& at) {
@@ -56,7 +63,7 @@ double hexagon_rotation(const glm::dvec2& at) {
         least = distance;
         index = {column, row};
     }
-    return rotation_of_cell(index.x, index.y);
+    return rotation_of_cell(modulo(index.x, kHexagonsAcross), modulo(index.y, kHexagonRows));
 }
 
 double tile_rotation(const glm::dvec2& at) {

@@ -258,7 +258,19 @@ TEST(GrooveTexture, EachHexagonOfFoilHasADirectionAndTheMaterialsPitch) {
         ASSERT_EQ(image.rgba[i + 1], 128);
     }
     EXPECT_GT(directions.size(), 20U);
-    EXPECT_LT(directions.size(), 90U);  // 7 times 8 cells, and halves of some
+    EXPECT_LE(directions.size(), 56U);  // 7 times 8 cells
+}
+
+TEST(GrooveTexture, HexagonsOfFoilRepeatWithoutASeam) {
+    const image::ByteImage image = image::decode_byte_image(foil_pattern("hexagons"), "hexagons");
+    const auto rotation_at = [&](int column, int row) {
+        return image.rgba[4 * static_cast<std::size_t>(row * image.width + column)];
+    };
+    // Opposite edges cut the same cells: the top and bottom everywhere, the sides in the middle of every other row.
+    for (int column = 0; column < image.width; ++column)
+        EXPECT_EQ(rotation_at(column, 0), rotation_at(column, image.height - 1)) << column;
+    for (const int row : {image.height / 4, image.height / 2, 3 * image.height / 4})
+        EXPECT_EQ(rotation_at(0, row), rotation_at(image.width - 1, row)) << row;
 }
 
 TEST(GrooveTexture, ARadialPatternsGratingVectorPointsAwayFromTheMiddle) {
