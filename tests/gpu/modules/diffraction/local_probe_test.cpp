@@ -1,5 +1,7 @@
 // Surfaces under the probes of boxes: alone, between two, and on the way from one to the other.
+#include <array>
 #include <glm/gtc/matrix_transform.hpp>
+#include <map>
 
 #include "engine/scene/mesh_recipe.h"
 #include "engine/scene/ray.h"
@@ -30,9 +32,14 @@ lighting::ProbeImage room(const glm::dvec3& half, const glm::vec3& tint) {
     return {std::move(picture), lighting::Mapping::Equirectangular};
 }
 
+/// Built once for all tests.
 std::shared_ptr<const lighting::LightProbe> probe_of(const glm::vec3& tint, const glm::dvec3& half = glm::dvec3(1.0)) {
-    return std::make_shared<const lighting::LightProbe>(lighting::build_light_probe(
-        room(half, tint), {.bands = 8, .key_lights = 4, .light_face = 32, .prefilter = {.face_size = 64}}));
+    static std::map<std::array<double, 6>, std::shared_ptr<const lighting::LightProbe>> built;
+    auto& probe = built[{tint.r, tint.g, tint.b, half.x, half.y, half.z}];
+    if (!probe)
+        probe = std::make_shared<const lighting::LightProbe>(lighting::build_light_probe(
+            room(half, tint), {.bands = 8, .key_lights = 4, .light_face = 32, .prefilter = {.face_size = 64}}));
+    return probe;
 }
 
 const glm::vec3 kWarm(1.0F, 0.7F, 0.3F);
