@@ -272,8 +272,7 @@ TEST(PointRadiance, IsWhatEvaluatePrints) {
     ROWLAND_TEST_DATA(sunset, "probes/pmndrs_sunset.exr");
     const test::TemporaryFolder folder;
     glm::dvec3 last(0.0);
-    for (const auto& [material, probe] :
-         {std::pair{"cd.json", venice}, std::pair{"ruled_1200.json", venice}, std::pair{"cd.json", sunset}}) {
+    for (const auto& [material, probe] : {std::pair{"cd.json", venice}, std::pair{"ruled_1200.json", sunset}}) {
         const auto [cooked, image, light] = lit(material, probe);
         const PointRadiance point = point_radiance(cooked, image, light, kFrame, kUniform);
 
