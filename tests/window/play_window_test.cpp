@@ -82,18 +82,21 @@ TEST_F(PlayWindow, DragsThrowsLightsAndWalksChangeWhatTheyNameAndNothingElse) {
     }
     {
         SCOPED_TRACE("a thrown disc turns on by itself");
-        user.throw_from(kOnDisc, {60, 30});
-        // Paused, a throw waits; no hand causes what differs after that.
-        const image::ByteImage first = full_shot(user);
-        const image::ByteImage second = user.shot();
-        EXPECT_EQ(difference(first, second, kDisc), 0.0);
-        // Played on in short pieces until the turn shows: a slow machine draws few frames in each.
+        // Where the whole drag falls into one frame of a busy machine it is a click: thrown again.
         double turned = 0.0;
-        for (int piece = 0; piece < 10 && turned <= 10.0; ++piece) {
-            user.key("space");
-            std::this_thread::sleep_for(1s);
-            user.key("space");
-            turned = difference(second, full_shot(user), kDisc);
+        for (int attempt = 0; attempt < 3 && turned <= 10.0; ++attempt) {
+            user.throw_from(kOnDisc, {60, 30});
+            // Paused, a throw waits; no hand causes what differs after that.
+            const image::ByteImage first = full_shot(user);
+            const image::ByteImage second = user.shot();
+            EXPECT_EQ(difference(first, second, kDisc), 0.0);
+            // Played on in short pieces until the turn shows: a slow machine draws few frames in each.
+            for (int piece = 0; piece < 4 && turned <= 10.0; ++piece) {
+                user.key("space");
+                std::this_thread::sleep_for(1s);
+                user.key("space");
+                turned = difference(second, full_shot(user), kDisc);
+            }
         }
         EXPECT_GT(turned, 10.0);
     }
