@@ -7,8 +7,8 @@
 
 namespace rowland {
 
-/// A module has two functions of one name (engine/MODULES.md), so that programs which only read and cook files need no
-/// OpenGL:
+/// A module has two functions with the same name (engine/MODULES.md), so that programs which only read and cook files
+/// need no OpenGL:
 ///     void register_module(cook::Registry&);    its asset types and glTF extensions
 ///     void register_module(render::Renderer&);  its material types, which hold components and per-frame systems
 using RegisterAssets = void (*)(cook::Registry&);

@@ -24,13 +24,13 @@ struct CommonOptions {
     bool gl_debug = platform::debug_build();       ///< the driver's messages are logged
 };
 
-/// Declares them. `capture_help` says what the picture shows. `options` must outlive `app`.
+/// Declares these options in `app`. `capture_help` is the help of --capture. `options` must outlive `app`.
 void add_common_options(CLI::App& app, CommonOptions& options, const std::string& capture_help);
 
 /// The OpenColorIO config that the options name, with their display and view as its defaults. Throws Error (input).
 post::OcioConfig open_ocio_config(const CommonOptions& options);
 
-/// The values that are there, for check_outputs().
+/// The values of the options that were given, for check_outputs().
 std::vector<std::filesystem::path> given(
     std::initializer_list<std::reference_wrapper<const std::optional<std::filesystem::path>>> options);
 
@@ -41,8 +41,8 @@ void render_offscreen(bool debug, const std::function<void(const std::string& re
 /// Throws Error (system) if no display can be reached; `remedy` says how `program` runs without one.
 void require_display(const std::string& program, const std::string& remedy);
 
-/// The first path that no file has: screenshot_0000.png, screenshot_0001.png, … in `folder`, for the stem "screenshot"
-/// and the extension ".png".
+/// The first unused path among screenshot_0000.png, screenshot_0001.png, … in `folder`, for the stem "screenshot" and
+/// the extension ".png".
 std::filesystem::path unused_file(const std::filesystem::path& folder, const std::string& stem,
                                   const std::string& extension);
 

@@ -27,7 +27,7 @@ Frame WindowLoop::next_frame() {
 }
 
 void WindowLoop::run(const std::function<Next(const Frame&)>& update, const std::function<void(const Frame&)>& draw) {
-    constexpr std::chrono::milliseconds kMinimisedFrame(20);  // no display sets the pace
+    constexpr std::chrono::milliseconds kMinimisedFrame(20);  // a minimised window does not wait for the display
     constexpr std::chrono::milliseconds kWatch(30);
     constexpr std::chrono::milliseconds kWait(1000);
     for (;;) {

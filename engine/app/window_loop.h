@@ -39,11 +39,11 @@ class WindowLoop {
 
     platform::Window& window() { return window_; }
     const platform::Window& window() const { return window_; }
-    /// Of the last frames that followed another without a wait.
+    /// The times of the last frames, without those that followed a wait.
     const platform::FrameTimes& times() const { return times_; }
 
-    /// Until `update` returns End: polls the window, calls `update`, and if that asks for it `draw`, and shows what it
-    /// drew. A minimised window draws nothing.
+    /// Until `update` returns End: polls the window and calls `update`; if that returns Frame and the window is not
+    /// minimised, also calls `draw` and shows what it drew.
     void run(const std::function<Next(const Frame&)>& update, const std::function<void(const Frame&)>& draw);
 
  private:

@@ -37,7 +37,7 @@ constexpr std::size_t kMaximumTypeSize = 64;
 constexpr std::size_t kMaximumHeaderSize = 256;
 constexpr const char* kRecook = "cook it again: ./rowland cook";
 
-/// Raising it buys little on floating-point tables and costs much time.
+/// Higher levels compress floating-point tables hardly better and are much slower.
 constexpr int kCompressionLevel = 9;
 
 // The densest a zstd frame gets is one 4-byte run-length block for each 128 KiB (RFC 8878, 3.1.1.2).
@@ -47,7 +47,7 @@ constexpr std::uint64_t kMinimumStoredBlockSize = 4;
 std::vector<std::byte> compress(std::span<const std::byte> payload) {
     const std::unique_ptr<ZSTD_CCtx, decltype(&ZSTD_freeCCtx)> context(ZSTD_createCCtx(), ZSTD_freeCCtx);
     if (!context) throw std::bad_alloc();
-    // All else at its default: one thread, no dictionary, no checksum of its own.
+    // The rest has its defaults: one thread, no dictionary, no checksum in the frame.
     ZSTD_CCtx_setParameter(context.get(), ZSTD_c_compressionLevel, kCompressionLevel);
     std::vector<std::byte> stored(ZSTD_compressBound(payload.size()));
     const std::size_t size =
@@ -126,7 +126,7 @@ bool begins_like_magic(std::span<const std::byte> bytes) {
                       [](std::byte a, char b) { return a == static_cast<std::byte>(b); });
 }
 
-/// unpack() with errors that lack the remedy.
+/// unpack(), but its errors lack the remedy.
 CookedAsset parse(std::span<const std::byte> bytes, const std::string& file) {
     if (!begins_like_magic(bytes)) refuse_input(file, "byte 0", "not a cooked asset", "one that ./rowland cook wrote");
     ByteReader reader(bytes, file);

@@ -11,7 +11,7 @@ namespace rowland::asset {
 class FileWatch {
  public:
     FileWatch() = default;
-    /// Watches from now on. A file written after `since`, perhaps while it was being read, counts as changed.
+    /// Watches from now on. A file written at or after `since`, perhaps while it was being read, counts as changed.
     FileWatch(std::vector<std::filesystem::path> files, std::filesystem::file_time_type since);
     explicit FileWatch(std::vector<std::filesystem::path> files)
         : FileWatch(std::move(files), std::filesystem::file_time_type::max()) {}

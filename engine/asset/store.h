@@ -29,8 +29,8 @@ class Slot {
     virtual void start_loading() = 0;
     virtual bool loading() const = 0;
     virtual void wait() const = 0;
-    /// Takes over what has been loaded, if it is there; true if the asset is another now. Never throws for a load that
-    /// failed: the old asset stays, and `failure` says why.
+    /// Takes over the result of start_loading() if that has ended; true if the asset was replaced. A load that failed
+    /// throws nothing here: the old asset stays, and `failure` says why.
     virtual bool adopt() = 0;
 
     const std::string name;
@@ -94,7 +94,7 @@ class TypedSlot final : public Slot {
             result.value = std::make_shared<const T>(loader_(files));
         } catch (...) {
             result.error = std::current_exception();
-            // A file that cannot be loaded may fail before it has named what it needs.
+            // The load may have failed before the loader named all files: those of the last load are watched further.
             files.insert(files.end(), watch.files().begin(), watch.files().end());
         }
         result.watch = FileWatch(std::move(files), started);
@@ -125,7 +125,7 @@ class Handle {
 
     const T& operator*() const { return *slot_->value(); }
     const T* operator->() const { return slot_->value().get(); }
-    /// The present asset; it does not change when the store replaces it.
+    /// The current asset. What the pointer holds stays the same when the store replaces the asset.
     std::shared_ptr<const T> value() const { return slot_->value(); }
     /// Grows whenever the asset is replaced.
     std::uint64_t version() const { return slot_->version; }
@@ -139,11 +139,11 @@ class Handle {
 /// keeps the old asset. Used from one thread; reloading runs on others.
 class Store {
  public:
-    /// `interval`: between two looks at the files.
+    /// poll() looks at the files once per `interval`.
     explicit Store(std::chrono::milliseconds interval = std::chrono::milliseconds(50)) : interval_(interval) {}
 
-    /// The asset called `name`, loaded now unless a handle on it exists. Throws what the loader throws. It is a
-    /// logic error to ask for one name with two types.
+    /// The asset called `name`, loaded now unless a handle on it exists. Throws what the loader throws. It is a logic
+    /// error to load one name with two types.
     template <typename T>
     Handle<T> load(const std::string& name, Loader<T> loader) {
         if (const std::shared_ptr<Slot> present = find(name)) {
@@ -155,8 +155,8 @@ class Store {
         return Handle<T>(std::move(slot));
     }
 
-    /// Once a frame: starts reloading what has changed, adopts what has been loaded. Returns whether an asset was
-    /// replaced or a load failed.
+    /// Starts reloading what has changed and adopts what has been loaded; call it every frame. Returns whether an asset
+    /// was replaced or a load failed.
     bool poll();
     void reload_all();
     /// Waits for all loading to end; the next poll() adopts the results.

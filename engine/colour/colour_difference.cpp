@@ -18,6 +18,7 @@ namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
 
+/// f of CIELAB.
 double lightness_curve(double ratio) {
     constexpr double kLinearBelow = 216.0 / 24389.0;
     constexpr double kSlope = 24389.0 / 27.0;
@@ -29,7 +30,7 @@ double seventh_power_ratio(double chroma) {
     return std::sqrt(c7 / (c7 + std::pow(25.0, 7.0)));
 }
 
-/// [0, 2π); 0 for greys.
+/// The hue angle in [0, 2π); 0 for greys.
 double hue(double a, double b) {
     if (a == 0.0 && b == 0.0) return 0.0;
     const double angle = std::atan2(b, a);
@@ -121,9 +122,9 @@ Kernel gaussian(double deviation, int radius) {
     return kernel;
 }
 
-/// The picture's edges continue outward.
+/// Separable convolution; beyond the edges the nearest pixel is repeated.
 Plane filtered(const Plane& plane, const Kernel& horizontal, const Kernel& vertical) {
-    const auto along = [&](const Plane& from, const Kernel& kernel, bool rows) {
+    const auto along = [](const Plane& from, const Kernel& kernel, bool rows) {
         Plane to(from.width, from.height);
         const int radius = static_cast<int>(kernel.size() / 2);
         for (int y = 0; y < from.height; ++y)
@@ -149,17 +150,18 @@ struct Sensitivity {
 };
 constexpr std::array<Sensitivity, 3> kSensitivities = {
     {{{1.0, 0.0}, {0.0047, 1e-5}}, {{1.0, 0.0}, {0.0053, 1e-5}}, {{34.1, 13.5}, {0.04, 0.025}}}};
-constexpr double kWidest = 0.04;  ///< the largest b
+constexpr double kLargestB = 0.04;
 
-Plane seen(const Plane& plane, const Sensitivity& sensitivity, double pixels_per_degree) {
-    const int radius = static_cast<int>(std::ceil(3.0 * std::sqrt(kWidest / (2.0 * pi * pi)) * pixels_per_degree));
+Plane apply_sensitivity(const Plane& plane, const Sensitivity& sensitivity, double pixels_per_degree) {
+    const int radius = static_cast<int>(std::ceil(3.0 * std::sqrt(kLargestB / (2.0 * pi * pi)) * pixels_per_degree));
     Plane sum(plane.width, plane.height);
     double weights = 0.0;
     for (std::size_t i = 0; i < 2; ++i) {
         if (sensitivity.a[i] == 0.0) continue;
         const double deviation = std::sqrt(sensitivity.b[i] / (2.0 * pi * pi)) * pixels_per_degree;
         const Kernel kernel = gaussian(deviation, radius);
-        const double middle = kernel[static_cast<std::size_t>(radius)];  // 1 before the kernel was normalised
+        // 1 over the sum of the weights before they were normalised, since the middle one was 1.
+        const double middle = kernel[static_cast<std::size_t>(radius)];
         const double weight = sensitivity.a[i] * std::sqrt(pi / sensitivity.b[i]) / (middle * middle);
         const Plane part = filtered(plane, kernel, kernel);
         for (std::size_t p = 0; p < sum.values.size(); ++p) sum.values[p] += weight * part.values[p];
@@ -173,7 +175,7 @@ glm::dvec3 white() {
     return rec709_to_xyz() * glm::dvec3(1.0);
 }
 
-/// Linear in XYZ: CIELAB without its cube root.
+/// YCxCz, linear in XYZ: CIELAB without its cube root.
 glm::dvec3 to_ycxcz(const glm::dvec3& rgb) {
     const glm::dvec3 relative = rec709_to_xyz() * rgb / white();
     return {116.0 * relative.y - 16.0, 500.0 * (relative.x - relative.y), 200.0 * (relative.y - relative.z)};
@@ -185,16 +187,18 @@ glm::dvec3 from_ycxcz(const glm::dvec3& opponent) {
     return kToRgb * (white() * glm::dvec3(opponent.y / 500.0 + y, y, y - opponent.z / 200.0));
 }
 
-/// CIELAB whose chroma fades with the luminance (Hunt).
+/// CIELAB whose chroma is proportional to the lightness (Hunt effect).
 glm::dvec3 adjusted_lab(const glm::dvec3& rgb) {
     const glm::dvec3 lab = xyz_to_lab(rec709_to_xyz() * rgb, white());
     return {lab.x, 0.01 * lab.x * lab.y, 0.01 * lab.x * lab.z};
 }
 
+/// The HyAB distance: lightness by difference, chroma by Euclidean distance.
 double hyab(const glm::dvec3& a, const glm::dvec3& b) {
     return std::abs(a.x - b.x) + std::hypot(a.y - b.y, a.z - b.z);
 }
 
+/// A power of the HyAB distance, mapped to [0, 1] by two linear parts.
 double colour_difference(const glm::dvec3& a, const glm::dvec3& b) {
     constexpr double kExponent = 0.7;
     constexpr double kKnee = 0.4;  // of the largest difference
@@ -242,6 +246,7 @@ Features features(const Plane& luminance, double pixels_per_degree) {
             .points = magnitude(derivative([](double x) { return x * x - 1.0; }))};
 }
 
+/// What ꟻLIP compares of a picture.
 struct Seen {
     std::vector<glm::dvec3> lab;
     Features features;
@@ -255,7 +260,7 @@ Seen as_seen(std::span<const glm::dvec3> picture, int width, int height, double 
         for (int c = 0; c < 3; ++c) planes[static_cast<std::size_t>(c)].values[i] = opponent[c];
         luminance.values[i] = (opponent.x + 16.0) / 116.0;
     }
-    for (std::size_t c = 0; c < 3; ++c) planes[c] = seen(planes[c], kSensitivities[c], pixels_per_degree);
+    for (std::size_t c = 0; c < 3; ++c) planes[c] = apply_sensitivity(planes[c], kSensitivities[c], pixels_per_degree);
     Seen result{.lab = {}, .features = features(luminance, pixels_per_degree)};
     for (std::size_t i = 0; i < picture.size(); ++i)
         result.lab.push_back(adjusted_lab(
@@ -263,7 +268,7 @@ Seen as_seen(std::span<const glm::dvec3> picture, int width, int height, double 
     return result;
 }
 
-/// Narkowicz' fit of the ACES curve, as the numbers of (a x² + b x) / (c x² + d x + e).
+/// Narkowicz' fit of the ACES curve at 0.6 x, as the coefficients of (a x² + b x) / (c x² + d x + e).
 constexpr double kToneA = 0.36 * 2.51, kToneB = 0.6 * 0.03, kToneC = 0.36 * 2.43, kToneD = 0.6 * 0.59, kToneE = 0.14;
 
 std::vector<glm::dvec3> exposed(std::span<const glm::dvec3> rgb, double factor) {
@@ -289,7 +294,8 @@ std::vector<glm::dvec3> to_rec709(std::span<const glm::dvec3> xyz) {
     return rgb;
 }
 
-/// Factors from the one that shows the brightest pixels to the one that shows the median, a stop or less apart.
+/// Exposures from the one that shows the largest luminance to the one that shows the median, evenly spaced in stops: as
+/// many as the stops between them, rounded up, but at least two.
 std::vector<double> exposure_factors(std::span<const glm::dvec3> reference) {
     constexpr double kShown = 0.85;  // of the display's white
     std::vector<double> luminances;

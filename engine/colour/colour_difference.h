@@ -13,19 +13,20 @@ glm::dvec3 xyz_to_lab(const glm::dvec3& xyz, const glm::dvec3& white);
 /// [Sharma, Wu & Dalal 2005, The CIEDE2000 color-difference formula].
 double delta_e_2000(const glm::dvec3& lab_1, const glm::dvec3& lab_2);
 
-/// How many pixels a degree of sight holds on a display of 3840 pixels and 0.7 m that is seen from 0.7 m.
+/// Pixels per degree of visual angle on a display 3840 pixels and 0.7 m wide, seen from 0.7 m.
 inline constexpr double kPixelsPerDegree = 67.02;
 
-/// The difference that a person sees between two pictures shown in turn at one exposure, 0 (none) to 1 for each pixel:
-/// ꟻLIP. Source: Andersson et al. 2020, "ꟻLIP: A Difference Evaluator for Alternating Images", Proc. ACM Comput. Graph.
-/// Interact. Tech. 3(2). The spans hold `width` times `height` pixels of linear Rec. 709 in [0, 1], row by row.
+/// ꟻLIP: the difference of each pixel, 0 (none) to 1, that an observer sees when two pictures of one exposure
+/// alternate. Source: Andersson et al. 2020, "ꟻLIP: A Difference Evaluator for Alternating Images", Proc. ACM Comput.
+/// Graph. Interact. Tech. 3(2). The spans hold `width` times `height` pixels of linear Rec. 709 in [0, 1], row by row.
 std::vector<double> flip(std::span<const glm::dvec3> picture, std::span<const glm::dvec3> reference, int width,
                          int height, double pixels_per_degree = kPixelsPerDegree);
 
-/// The same of pictures in XYZ of any brightness: the largest over the exposures that show something of the reference,
-/// from its median to its largest luminance. Source: Andersson et al. 2021, "Visualizing Errors in Rendered High
-/// Dynamic Range Images", Eurographics Short Papers. Differs from it in one point: black pixels of the reference, here
-/// its background, are no part of the median. All 0 if the reference is black.
+/// HDR-ꟻLIP: for each pixel the largest flip() over several exposures, for pictures in XYZ of any brightness. The
+/// exposures range from the one that shows the reference's largest luminance to the one that shows its median. Source:
+/// Andersson et al. 2021, "Visualizing Errors in Rendered High Dynamic Range Images", Eurographics Short Papers; unlike
+/// there, the median is without the black pixels of the reference, here its background. All 0 if the reference is
+/// black.
 std::vector<double> hdr_flip(std::span<const glm::dvec3> picture, std::span<const glm::dvec3> reference, int width,
                              int height, double pixels_per_degree = kPixelsPerDegree);
 

@@ -25,15 +25,16 @@ glm::dvec3 xy_to_xyz(const glm::dvec2& xy);
 /// Linear RGB → XYZ: each primary scaled so that (1,1,1) is `white`. p.white is not read.
 glm::dmat3 rgb_to_xyz(const Primaries& p, const glm::dvec3& white);
 
-/// Chromatic adaptation of XYZ from one white to another by scaling in Bradford's cone space (Lam 1985; ICC.1, annex
-/// E).
+/// Chromatic adaptation of XYZ from one white to another by scaling in Bradford's cone space [Lam 1985; ICC.1, annex
+/// E].
 glm::dmat3 bradford(const glm::dvec3& from_white, const glm::dvec3& to_white);
 
 /// Linear RGB of `from` → linear Rec.709, adapted by bradford(); nullopt if the two spaces agree to 1e-3 in xy, or if
 /// `from` is not usable.
 std::optional<glm::dmat3> to_rec709(const Primaries& from);
 
-/// CIE 1931 XYZ → linear Rec.709 without adaptation: D65's white of luminance 1 becomes (1,1,1).
+/// CIE 1931 XYZ → linear Rec.709 without adaptation: kRec709.white of luminance 1 becomes (1,1,1). The inverse of
+/// rec709_to_xyz() to about four digits only, since that has white_d65().
 glm::dmat3 xyz_to_rec709();
 
 /// Whether the primaries span a triangle and the white point has luminance.
@@ -45,7 +46,7 @@ inline double luminance(const glm::dvec3& rgb) {
 }
 
 /// D65's white as the tables give it: XYZ of spectral rgb (1,1,1), Y = 1. Chromaticity (0.3127, 0.3290) to four digits.
-/// All matrices below use it, so white stays neutral to rounding.
+/// rec709_to_xyz() and xyz_to_acescg() use it, so that they keep white neutral to rounding.
 glm::dvec3 white_d65();
 
 /// Linear Rec.709 → XYZ (ITU-R BT.709 primaries, white_d65()).
@@ -69,8 +70,8 @@ inline double srgb_linear(double encoded) {
 /// every spectral colour [Ottosson 2020, A perceptual color space for image processing].
 glm::dmat3 rec709_to_oklab_lms();
 
-/// The cone responses → (L, a, b): perceived lightness, white is 1; a and b are proportional to the chroma, and their
-/// angle is the hue. Scaling the light by k scales L, a and b by the cube root of k. Negative responses have negative
+/// The cone responses → Oklab (L, a, b): L is the perceived lightness, 1 for white, the length of (a, b) the chroma and
+/// its angle the hue. Scaling the light by k scales L, a and b by the cube root of k. Negative responses have negative
 /// roots.
 glm::dvec3 oklab_of_lms(const glm::dvec3& lms);
 

@@ -16,7 +16,7 @@ class JsonReader;
 
 namespace rowland::colour {
 
-/// A light source's relative spectral power S(λ); 0 where its table ends. Its scale does not matter.
+/// A light source's relative spectral power S(λ), 0 outside its table. Its scale does not matter.
 struct Illuminant {
     std::string name;
     SampledSpectrum power;
@@ -25,13 +25,13 @@ struct Illuminant {
 /// The built-in illuminants: "A", "D65", "E", "F2", "F11", "LED-B3".
 std::vector<std::string> illuminant_names();
 
-/// A built-in illuminant. Throws Error (input) that lists them for another name.
+/// A built-in illuminant. Throws Error (input) that lists the names if `name` is none of them.
 const Illuminant& illuminant(const std::string& name);
 
 /// CIE standard illuminant D65.
 const Illuminant& d65();
 
-/// An illuminant from CSV text `wavelength_nm,relative_power`. Throws Error (input) naming the file and the row as
+/// An illuminant from CSV text with the header `wavelength_nm,relative_power`. Throws Error (input) as
 /// parse_spectrum_csv() does, for negative power, and unless is_visible().
 Illuminant parse_illuminant(std::string_view text, const std::string& file);
 
@@ -46,11 +46,11 @@ std::string write_illuminant_csv(const Illuminant& illuminant);
 /// ∫S ȳ dλ over the visible range, trapezoid at 1 nm.
 double luminous_power(const Illuminant& illuminant);
 
-/// Whether luminous_power() is positive and finite, as is its reciprocal.
+/// Whether luminous_power() is positive, and it and its reciprocal are finite.
 bool is_visible(const Illuminant& illuminant);
 
-/// B_c(λ): the spectra of linear Rec.709 red, green and blue, which sum to 1 [Mallett & Yuksel 2019]. Clamped
-/// to the table's ends (380 and 780 nm).
+/// B_c(λ): the spectra of linear Rec.709 red, green and blue, which sum to 1 [Mallett & Yuksel 2019]. Outside 380–780
+/// nm the table's nearest value.
 glm::dvec3 rgb_basis(double wavelength_nm);
 
 /// Turns linear RGB into spectral radiance under an illuminant: L(λ) = Σ_c rgb_c E_c(λ), E_c(λ) = k_S S(λ) B_c(λ),
@@ -76,8 +76,8 @@ glm::dvec3 rgb_to_xyz(const LightSpectra& spectra, const glm::dvec3& rgb);
 /// Reads "illuminant", a built-in name; D65 if it is absent. Throws Error (input) that lists the names.
 Illuminant read_builtin_illuminant(JsonReader& json);
 
-/// The same, or the name of a .csv file, which the caller loads. `owner`, for messages: the file that it is relative
-/// to, as in "the material".
+/// As read_builtin_illuminant(), but "illuminant" may also name a .csv file: then returns the name, and the caller
+/// loads the file. `owner`, for messages, is what the name is relative to, as in "the material".
 std::variant<Illuminant, std::string> read_illuminant(JsonReader& json, const std::string& owner);
 
 }  // namespace rowland::colour

@@ -16,7 +16,7 @@ namespace rowland::colour {
 
 namespace {
 
-/// The distance of evenly spaced samples, else 0. Even tables need no search.
+/// The distance between evenly spaced samples, which need no search, else 0.
 double even_step(const std::vector<double>& x) {
     const double step = x[1] - x[0];
     for (std::size_t i = 1; i < x.size(); ++i)
@@ -52,6 +52,7 @@ double SampledSpectrum::operator()(double wavelength_nm) const {
     return values_[i] + t * (values_[i + 1] - values_[i]);
 }
 
+/// The files of data/; defined by rowland_embed_files() in CMakeLists.txt.
 std::span<const EmbeddedFile> table_files();
 
 namespace {

@@ -14,11 +14,11 @@ class JsonReader;
 
 namespace rowland::colour {
 
-/// The range all spectra are integrated over, by the trapezoid rule at 1 nm.
+/// The wavelengths in nm over which all spectra are integrated, by the trapezoid rule at 1 nm.
 inline constexpr int kVisibleMin = 380;
 inline constexpr int kVisibleMax = 780;
 
-/// ∫ f(λ) dλ over that range. `T` is what f returns.
+/// ∫ f(λ) dλ over the visible range, λ in nm. `T` is what f returns.
 template <typename T, typename Function>
 T integrate_visible(const Function& f) {
     T sum(0.0);
@@ -29,7 +29,7 @@ T integrate_visible(const Function& f) {
     return sum;
 }
 
-/// Values of a spectrum outside its table.
+/// The values of a spectrum outside its table.
 enum class Outside {
     Zero,   ///< for emission and sensitivity
     Clamp,  ///< the nearest value: for properties of materials
@@ -50,7 +50,7 @@ class SampledSpectrum {
     std::vector<double> wavelengths_nm_;
     std::vector<double> values_;
     Outside outside_;
-    double even_step_nm_;  ///< distance of the samples where it is the same for all, else 0
+    double even_step_nm_;  ///< distance between samples if they are evenly spaced, else 0
 };
 
 /// A table of spectra: the first column is the wavelength in nm, ascending strictly.
@@ -65,7 +65,7 @@ struct SpectrumTable {
 /// (0, 1e6], and fewer than two rows. The header is row 1.
 SpectrumTable parse_spectrum_csv(std::string_view text, const std::string& file, const std::string& header);
 
-/// A table of data/, which is built in: "metals/Al_nk.csv".
+/// A table of data/, such as "metals/Al_nk.csv", all of which are embedded in the program.
 SpectrumTable builtin_table(const std::string& name, const std::string& header);
 
 /// Column `i` of a table as a function of wavelength.
@@ -80,17 +80,17 @@ enum class Metal { Al, Ag, Au, Cu };
 /// "Al", "Ag", "Au", "Cu".
 std::vector<std::string> metal_names();
 
-/// One of metal_names(); nothing for another name.
+/// The metal of a name in metal_names(); nullopt for any other name.
 std::optional<Metal> parse_metal(const std::string& name);
 std::string metal_name(Metal metal);
-/// The metal that "metal" names. Throws Error (input) that lists the known ones.
+/// Reads "metal", one of metal_names(). Throws Error (input) that lists them.
 Metal read_metal(JsonReader& json);
 
 /// n + ik at a wavelength, k ≥ 0. Linear between the table's samples and clamped outside 299–886 nm.
 std::complex<double> metal_index(Metal metal, double wavelength_nm);
 
-/// R(λ) = ((n−n₀)² + k²) / ((n+n₀)² + k²): power reflectance of a polished face in a medium of index n₀ = `medium` at
-/// normal incidence, of metal_index().
+/// R(λ) = ((n−n₀)² + k²) / ((n+n₀)² + k²): power reflectance at normal incidence of a polished surface with n + ik of
+/// metal_index(), in a medium of index n₀ = `medium`.
 double metal_reflectance(Metal metal, double wavelength_nm, double medium = 1.0);
 
 }  // namespace rowland::colour

@@ -76,7 +76,7 @@ Hash128 content_hash(const AssetType& type, std::span<const Hash128> dependencie
 }
 
 BakedAsset bake_source(const Registry& registry, const std::filesystem::path& source) {
-    read_beginning(source, 1);  // nothing but a file is given to the types
+    read_beginning(source, 1);  // throws unless it is a readable file
     const AssetType& type =
         as_refusal_of(source, [&]() -> const AssetType& { return registry.type_of_source(source); });
     if (!type.cook)
@@ -102,7 +102,7 @@ BakedAsset cook_source(const Registry& registry, const std::filesystem::path& so
     // Made before anything is written, since it may refuse a name.
     std::string depfile;
     if (settings.depfile) {
-        // A build system takes an output of a file that is missing for stale, always.
+        // A build system would rebuild an output each time if one of its dependencies does not exist.
         std::vector<std::filesystem::path> present = baked.dependencies;
         std::erase_if(present, [](const auto& path) { return !std::filesystem::exists(path); });
         depfile = depfile_text(output, present);
@@ -117,7 +117,8 @@ namespace {
 
 constexpr std::uint64_t kMostRecordBytes = std::uint64_t{16} << 20;
 
-/// The recorded dependencies of a source beside it, with their content as recorded; nullopt: something has changed.
+/// The source and its recorded dependencies, which are relative to its folder; nullopt if the content of one has
+/// changed.
 std::optional<std::vector<std::filesystem::path>> unchanged(const CookRecord& record, const AssetType& type,
                                                             const std::filesystem::path& source) {
     std::vector<std::filesystem::path> files{source};
@@ -166,7 +167,7 @@ std::filesystem::path cook_once(const Registry& registry, const std::filesystem:
     read_files.push_back(source);
     const std::optional<Hash128> source_hash = hash_file(source);
     const AssetType* type = source_hash ? registry.recognise(source) : nullptr;
-    if (type == nullptr || !type->cook) bake_source(registry, source);  // says why it cannot be cooked
+    if (type == nullptr || !type->cook) bake_source(registry, source);  // throws: says why it cannot be cooked
     const auto output_of = [&](const std::string& content) { return cache_folder / (content + type->extension); };
     const std::filesystem::path record_file = cache_folder / (source_hash->hex() + ".json");
     if (const std::optional<CookRecord> record = read_cook_record(record_file))

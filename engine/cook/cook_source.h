@@ -44,14 +44,15 @@ struct CookSettings {
     std::optional<std::filesystem::path> depfile;  ///< Makefile-syntax list of everything the output was made from
 };
 
-/// Bakes `source` and writes `output`, then the depfile: whole or, if anything fails, not at all. It always bakes:
-/// when to cook is the build system's decision, since only that knows whether the cooker itself is the one that wrote
-/// an existing output. Throws Error like bake_source and write_file_atomic, and
-/// before it bakes (for the files that the source names: before it writes) where check_outputs() refuses an output.
+/// Bakes `source` and writes `output`, then the depfile: each whole or, if anything fails, not at all. It always bakes;
+/// the build system decides when to cook, since only that knows whether this cooker wrote an existing output. Throws
+/// Error as bake_source() and write_file_atomic() do. It also throws where check_outputs() refuses an output: as one of
+/// the files that the source names, before it writes, otherwise before it bakes.
 BakedAsset cook_source(const Registry& registry, const std::filesystem::path& source,
                        const std::filesystem::path& output, const CookSettings& settings = {});
 
-/// The record of a finished cook, by which it is not done again: who made the output, from what, and what it is.
+/// The record of a finished cook, by which the same cook is not repeated: what made the output, from which files, and
+/// the output's hash.
 struct CookRecord {
     std::string cooker;                               ///< hash of the program; empty: any of this tool_version()
     std::vector<std::filesystem::path> dependencies;  ///< the source first
@@ -66,15 +67,16 @@ void write_cook_record(const std::filesystem::path& file, const CookRecord& reco
 std::optional<CookRecord> read_cook_record(const std::filesystem::path& file);
 
 /// The cooked file of `source` in a cache: cooked now, unless a file there was cooked from the same content of the
-/// source and of all its dependencies, wherever these are. `read_files` receives the dependencies, also of a source
-/// that is refused. For any number of processes. Throws Error as cook_source() does.
+/// source and of all its dependencies, in whatever folder the source was. Replaces `read_files` by the dependencies, or
+/// if it throws adds `source`. Several processes may call it at once. Throws Error as bake_source() and
+/// write_file_atomic() do.
 std::filesystem::path cook_once(const Registry& registry, const std::filesystem::path& source,
                                 const std::filesystem::path& cache_folder,
                                 std::vector<std::filesystem::path>& read_files);
 
 /// Loads a source, or a cooked asset (recognised by its magic), as the engine would. Returns its kind, such as "probe
-/// source" or "cooked probe". Throws Error (input) if it is refused or of no known kind. Other exceptions of a loader
-/// become such an Error.
+/// source" or "cooked probe". Throws Error (input) if it is refused or of no known kind, or if a loader throws another
+/// exception.
 std::string check_file(const Registry& registry, const std::filesystem::path& path);
 
 /// What a cooked asset holds, a "name: value" line each: its header, then its payload as its type describes it.

@@ -20,12 +20,13 @@ class Recooker {
         std::filesystem::path output;
     };
 
-    /// The registry must outlive it.
+    /// The registry must outlive the Recooker.
     Recooker(const Registry& registry, std::vector<Job> jobs,
              std::chrono::milliseconds interval = std::chrono::milliseconds(50));
 
-    /// Once a frame: cooks what has changed.
+    /// Starts cooking what has changed; call it every frame.
     void poll();
+    /// Waits for the work that is running; the next poll() takes over its results.
     void wait() const;
     /// Messages of sources that could not be cooked, until they can.
     std::vector<std::string> failures() const;

@@ -35,7 +35,8 @@ std::vector<std::byte> Context::read(const std::filesystem::path& path, std::uin
                                      const std::string& remedy) {
     depend_on(path);
     std::vector<std::byte> bytes = read_file(path, max_bytes, remedy);
-    // What is cooked must be what the content hash is of, even if the file is changed back before anybody looks again.
+    // The bytes that are cooked must be those of the content hash, even if the file changes and is restored before the
+    // hash is taken again.
     const auto index = std::find(dependencies_.begin(), dependencies_.end(), path) - dependencies_.begin();
     const std::optional<Hash128>& known = fingerprints_[static_cast<std::size_t>(index)];
     if (known && Hasher().bytes(bytes).digest() != *known) fail_changed(path);
@@ -48,7 +49,7 @@ nlohmann::json Context::read_json(const std::filesystem::path& path) {
 }
 
 nlohmann::ordered_json Context::read_ordered_json(const std::filesystem::path& path) {
-    read_json(path);  // refuses what is not sane
+    read_json(path);  // for its checks of depth, keys and numbers
     return nlohmann::ordered_json::parse(read(path, kMaximumJsonBytes));
 }
 

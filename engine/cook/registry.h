@@ -22,10 +22,11 @@ struct ImportedScene;
 
 namespace rowland::cook {
 
-/// The content of what a cook depends on: hash_file(), or zero for a file that does not exist.
+/// The content hash of a file that a cook depends on: zero if it does not exist, else hash_file().
 std::optional<Hash128> hash_dependency(const std::filesystem::path& path);
 
-/// What one cook reads. Every file is read through it, so that the dependency file is complete.
+/// The files that one cook reads. Each is read through it or named to depend_on(), so that the dependency file is
+/// complete.
 class Context {
  public:
     explicit Context(std::filesystem::path source) : source_(std::move(source)) { depend_on(source_); }
@@ -33,12 +34,12 @@ class Context {
     const std::filesystem::path& source() const { return source_; }
     /// A path named inside the source, relative to the source's folder.
     std::filesystem::path beside_source(const std::string& name) const { return source_.parent_path() / name; }
-    /// Records that the result depends on `path`, and the hash of what the file holds now. Call it before reading. It
-    /// throws nothing: the reader refuses a file that cannot be read. One that need not exist may be missing.
+    /// Records that the result depends on `path`, and the file's present hash. Call it before reading the file. It does
+    /// not throw if the file is missing or unreadable: an optional one may be missing, and reading refuses any other.
     void depend_on(const std::filesystem::path& path);
     /// Each file once, in the order of the first mention; the source comes first.
     const std::vector<std::filesystem::path>& dependencies() const { return dependencies_; }
-    /// The hash of each of `dependencies()` when it was first mentioned; null if it could not be read then.
+    /// hash_dependency() of each of `dependencies()` when it was first mentioned.
     const std::vector<std::optional<Hash128>>& fingerprints() const { return fingerprints_; }
 
     /// Reads and records a file. Throws Error (input) as rowland::read_file does, and Error (system) if it has changed
@@ -84,7 +85,7 @@ struct SceneExtension {
     const nlohmann::json& object;
     std::string pointer;  ///< JSON pointer of the object
     const scene::ImportedScene& scene;
-    std::size_t material;  ///< of the scene
+    std::size_t material;  ///< index of the material in `scene`
 };
 
 /// A glTF material extension that a module reads. All functions throw Error (input) for what the module refuses.
@@ -92,14 +93,15 @@ struct GltfExtension {
     std::string name;
     /// The JSON Schema of its objects; empty if none is offered.
     std::function<nlohmann::ordered_json()> schema = {};
-    /// A line about an object of the extension in a glTF `file`, at a JSON pointer. Reads it as the engine would.
+    /// Reads an object of the extension as the engine would, and describes it in one line. `pointer` is its JSON
+    /// pointer in the glTF `file`.
     std::function<std::string(const nlohmann::json& object, const std::string& file, const std::string& pointer)>
         describe;
 
     std::uint32_t version = 0;  ///< raise it whenever the tables' layout or the bake's result changes
     /// The tables that drawing an extension takes. Deterministic like AssetType::cook. Empty function: it takes none.
     std::function<std::vector<std::byte>(Context&, const SceneExtension&)> cook;
-    /// Describes such tables, a "name: value" line each. Throws Error (input). Empty only where `cook` is.
+    /// Describes the tables, a "name: value" line each. Empty only where `cook` is.
     std::function<std::string(std::span<const std::byte> tables, const std::string& file)> describe_tables;
 
     // For `rowland-cook attach`; empty if no source becomes such an object.
@@ -110,8 +112,8 @@ struct GltfExtension {
     std::function<void(nlohmann::ordered_json& object, const std::filesystem::path& from,
                        const std::filesystem::path& to)>
         move;
-    std::string rotation_member;  ///< an angle in radians
-    std::string texture_member;   ///< a textureInfo
+    std::string rotation_member;  ///< the name of the member that is a rotation in radians
+    std::string texture_member;   ///< the name of the member that is a textureInfo
 };
 
 /// Throws Error (system): a file has changed since the cook first read it.

@@ -17,7 +17,7 @@ namespace rowland {
 template <typename Key, typename Value>
 class Computed {
  public:
-    /// Shows a value that is not complete yet.
+    /// Hands over an intermediate value, for poll().
     using Publish = std::function<void(Value)>;
     /// Runs on the other thread. Returns nullopt if it stopped early because the token asked for it.
     using Work = std::function<std::optional<Value>(const std::stop_token&, const Publish&)>;
@@ -30,8 +30,9 @@ class Computed {
         if (running_.valid()) running_.wait();
     }
 
-    /// States the inputs; call it every frame. Other inputs than before stop the running work, and `work` is started
-    /// once that has ended. nullopt: nothing is computed, the last value stays.
+    /// States the inputs; call it every frame. If they differ from the last ones, the running work is asked to stop,
+    /// and `work` starts when it has ended, unless the complete value for these inputs is there. nullopt: nothing is
+    /// computed, the last value stays.
     void want(const std::optional<Key>& key, Work work) {
         if (wants(key)) return;
         stop_.request_stop();
@@ -50,7 +51,7 @@ class Computed {
     }
 
     struct Change {
-        bool value = false;   ///< value() is another one
+        bool value = false;   ///< value() was replaced
         std::string failure;  ///< why the wanted value cannot be computed; empty: no such failure
     };
     /// Takes over what the work published or returned; call it every frame.
@@ -87,6 +88,7 @@ class Computed {
     /// The last value, current or not; null before the first.
     const Value* value() const { return value_ ? &*value_ : nullptr; }
     bool is_of(const Key& key) const { return value_ && key_ == key; }
+    /// Whether value(), complete or not, is of the wanted inputs.
     bool current() const { return wanted_ && is_of(*wanted_); }
     bool busy() const { return running_.valid() || waiting_ != nullptr; }
 
@@ -119,7 +121,7 @@ class Computed {
 
     std::optional<Key> wanted_;
     std::optional<Key> running_key_;
-    std::optional<Key> key_;  ///< of value_
+    std::optional<Key> key_;  ///< the inputs of value_
     std::optional<Value> value_;
     bool complete_ = false;  ///< value_ is what the work returned, not what it published before
     Work waiting_;

@@ -59,7 +59,7 @@ namespace {
                 "check permissions and free space");
 }
 
-/// Renaming over a device or a pipe would replace it by a file.
+/// Throws Error (input) unless `path` can be a regular file: renaming a file over a device or a pipe would replace it.
 void require_no_device(const std::filesystem::path& path) {
     if (!path.has_filename()) refuse_input(path.string(), "", "names a folder", "a file to write");
     struct stat old = {};
@@ -68,7 +68,7 @@ void require_no_device(const std::filesystem::path& path) {
             refuse_input(path.string(), "", "exists and is not a regular file", "a file to write");
         return;
     }
-    // Where a folder is missing, the system does not look at the names below it.
+    // stat() stops at the first missing folder, so the names below it are checked one by one.
     int code = errno;
     for (const std::filesystem::path& name : path)
         if (code == ENOENT && ::lstat(name.c_str(), &old) != 0 && errno == ENAMETOOLONG) code = errno;
@@ -192,7 +192,7 @@ class Replacement {
             [](const char* name) { return ::open(name, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666); });
     }
 
-    /// `make(name)` creates the file; negative, with errno EEXIST, if the name is taken.
+    /// `make(name)` creates the file; it returns a negative number, with errno EEXIST, if the name is taken.
     template <typename Make>
     int take_new_name(const Make& make) {
         std::random_device random;
@@ -209,7 +209,7 @@ class Replacement {
 
     const std::filesystem::path& target_;
     std::filesystem::path folder_;
-    std::filesystem::path temporary_;  ///< its name, while it has one
+    std::filesystem::path temporary_;  ///< path of the new file while it has a name
     Descriptor file_;
 };
 
@@ -323,7 +323,7 @@ void require_writable(const std::filesystem::path& path) {
 }  // namespace
 
 void check_outputs(std::span<const std::filesystem::path> inputs, std::span<const Output> outputs) {
-    std::map<std::string, std::string> users;  // of each key
+    std::map<std::string, std::string> users;  // what uses the file with each key
     for (const std::filesystem::path& input : inputs)
         for (const std::string& key : keys_of(input)) users.emplace(key, "an input");
     for (const auto& [option, path, extension] : outputs) {

@@ -41,8 +41,8 @@ class Hasher {
 /// Error (input) unless the variable is a whole number from `least` to `most`.
 std::uint64_t memory_limit(const char* name, std::uint64_t least, std::uint64_t most);
 
-/// Reads a whole file. Throws Error (input) if it is missing, not a regular file, unreadable or larger than
-/// `max_bytes`, for which `remedy` says what to do.
+/// Reads a whole file. Throws Error (input) if it is missing, not a regular file, may not be read or is larger than
+/// `max_bytes` (`remedy` says what to do then), and Error (system) if reading fails.
 std::vector<std::byte> read_file(const std::filesystem::path& path, std::uint64_t max_bytes,
                                  const std::string& remedy = "");
 std::string read_text_file(const std::filesystem::path& path, std::uint64_t max_bytes);
@@ -59,8 +59,8 @@ std::optional<Hash128> hash_file(const std::filesystem::path& path);
 void create_folder(const std::filesystem::path& path);
 
 /// Replaces the file `path`: readers see the old file or the complete new one, even if the program is killed. Creates
-/// the folder. Throws Error (system), leaving the old file, if anything fails, and Error (input) if `path` is a folder,
-/// a device or a pipe.
+/// the folder. Throws Error (input) if `path` is a folder, a device or a pipe, or too long, and Error (system), leaving
+/// the old file, if anything else fails.
 void write_file_atomic(const std::filesystem::path& path, std::span<const std::byte> data);
 void write_file_atomic(const std::filesystem::path& path, std::string_view text);
 /// The same with content that lies in parts.
@@ -70,15 +70,16 @@ void write_file_atomic(const std::filesystem::path& path, std::span<const std::s
 /// system releases it when the process ends in any way.
 class FileLock {
  public:
-    /// nullopt if another process, or another lock of this one, holds it. Every caller gets it where the file system
-    /// knows no locks. Creates the file, which stays. Throws Error (system) if that fails.
+    /// The lock, or nullopt if another process or another FileLock of this process holds it. On a file system without
+    /// locks every caller gets one. Creates the file if it is missing, and leaves it there. Throws Error (system) if it
+    /// cannot be opened.
     static std::optional<FileLock> try_take(const std::filesystem::path& file);
 
     FileLock(FileLock&& other) noexcept : descriptor_(std::exchange(other.descriptor_, -1)) {}
     FileLock& operator=(FileLock&&) = delete;
     ~FileLock();
 
-    /// For reading, and for writing at the end.
+    /// Open for reading and for appending.
     int descriptor() const { return descriptor_; }
 
  private:
@@ -88,7 +89,7 @@ class FileLock {
 
 /// A file that a program is to write.
 struct Output {
-    std::string option;  ///< that names it, as "--capture"
+    std::string option;  ///< the option that names it, as "--capture"
     std::filesystem::path path;
     std::string extension = {};  ///< of its format, as ".png", in either case; empty: any
 };

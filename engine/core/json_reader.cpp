@@ -14,7 +14,7 @@ namespace {
 
 constexpr int kMaximumDepth = 64;
 
-/// What a value is, for messages: short, whatever the value's size.
+/// The value as JSON, for messages, cut to 40 bytes.
 std::string describe(const nlohmann::json& value) {
     std::string text = value.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
     if (text.size() <= 40) return text;
@@ -139,7 +139,7 @@ double typical(const NumberRange& range) {
 
 nlohmann::json parse_json(std::string_view text, const std::string& file) {
     const std::size_t keys = check_depth(text, file);
-    // The library takes it for the end.
+    // nlohmann::json takes a null character for the end of the text.
     if (const std::size_t null = text.find('\0'); null != std::string_view::npos)
         refuse_input(file, fmt::format("byte {}", null), "a null character", "valid JSON");
     try {
@@ -198,9 +198,9 @@ const nlohmann::json& JsonReader::require(const std::string& key) {
     const auto it = value_->find(key);
     if (it != value_->end()) return *it;
     // A misspelt key explains a missing one.
-    std::vector<std::string> unasked;
-    for (const auto& [name, ignored] : value_->items()) unasked.push_back(name);
-    const auto near = nearest_word(key, unasked);
+    std::vector<std::string> present;
+    for (const auto& [name, ignored] : value_->items()) present.push_back(name);
+    const auto near = nearest_word(key, present);
     fail(key, "missing", "a value", near ? fmt::format("is \"{}\" meant to be \"{}\"?", *near, key) : "add it");
 }
 

@@ -14,8 +14,9 @@
 
 namespace rowland {
 
-/// Parses JSON text that may be hostile. Throws Error (input) with line and column for bad syntax and invalid UTF-8,
-/// for nesting deeper than 64, and with the JSON pointer for a repeated key of an object.
+/// Parses JSON text that may be hostile. Throws Error (input): with line and column for bad syntax and invalid UTF-8,
+/// with the byte offset for nesting deeper than 64 and for a null character, with the JSON pointer for a repeated key
+/// of an object, and for a number that does not fit a double.
 nlohmann::json parse_json(std::string_view text, const std::string& file);
 
 /// A number's domain; messages show it as an interval.
@@ -37,8 +38,8 @@ struct JsonShape {
     enum class Kind { Any, Number, Integer, Boolean, Text, Numbers, Choice, Object, Objects, ObjectOrObjects };
     Kind kind = Kind::Any;
     NumberRange range{};                      ///< of Number, Integer, Numbers
-    std::size_t least = 0;                    ///< characters of a Text, Numbers, Objects
-    std::size_t most = 0;                     ///< of Objects; 0: any number
+    std::size_t least = 0;                    ///< characters of a Text; elements of Numbers, Objects
+    std::size_t most = 0;                     ///< elements of Numbers, Objects; 0: any number
     std::vector<std::string_view> choices{};  ///< of Choice
 };
 
@@ -54,7 +55,7 @@ class JsonRecorder {
     virtual std::vector<std::shared_ptr<JsonRecorder>> split(std::size_t count) = 0;
     /// No other keys are allowed.
     virtual void close() = 0;
-    /// JsonReader::annotate() and also_allows().
+    /// See JsonReader::annotate() and also_allows().
     virtual void annotate(const std::string& key, std::string_view keywords) = 0;
     virtual void also_allows(const std::string& key, std::string_view schema) = 0;
 };
@@ -71,6 +72,7 @@ class JsonReader {
     explicit JsonReader(std::shared_ptr<JsonRecorder> recorder) : recorder_(std::move(recorder)) {}
 
     bool is_recording_schema() const { return recorder_ != nullptr; }
+    /// Whether the key is there; finish() then accepts it. Always true if the reader records.
     bool has(const std::string& key);
     /// Fails with these parts if the key is there.
     void refuse_if_there(const std::string& key, const std::string& found, const std::string& expected,
@@ -102,22 +104,22 @@ class JsonReader {
     std::optional<JsonReader> object_if_there(const std::string& key);
     /// The raw value, for shapes the calls above do not cover.
     const nlohmann::json& raw(const std::string& key);
-    /// Array of objects under `key`; of at least `least` and, unless it is 0, at most `most`.
+    /// An array of at least `least` objects and, unless `most` is 0, at most `most`.
     std::vector<JsonReader> objects(const std::string& key, std::size_t least = 0, std::size_t most = 0);
     /// The same; empty if the key is missing.
     std::vector<JsonReader> objects_if_there(const std::string& key);
-    /// An object, or an array of 1 to `most`.
+    /// An object, or an array of 1 to `most` objects.
     std::vector<JsonReader> object_or_objects(const std::string& key, std::size_t most);
 
     /// Calls `read` with the index of the word under `key`, one of `words`, to read the members that go with it.
     void variant(const std::string& key, const std::vector<std::string_view>& words,
                  const std::function<void(JsonReader&, std::size_t)>& read);
-    /// Calls `with` if the key is there, which must read it, else `without`.
+    /// Calls `with`, which must read the key, if the key is there, else `without`.
     void alternatives(const std::string& key, const std::function<void(JsonReader&)>& with,
                       const std::function<void(JsonReader&)>& without);
 
-    /// For what a call above cannot say of a member that was read: further keywords of its JSON Schema, as JSON text.
-    /// "probes/items" is the schema of an array's elements.
+    /// Adds keywords, as JSON text, to the JSON Schema of a member that was read: for what the calls above cannot
+    /// express. The key "probes/items" is the schema of the elements of "probes".
     void annotate(const std::string& key, std::string_view keywords);
     /// The member may also satisfy this schema.
     void also_allows(const std::string& key, std::string_view schema);
@@ -161,7 +163,8 @@ Vector read_vector_or(JsonReader& owner, const std::string& key, const Vector& f
     return owner.has(key) ? read_vector<Vector>(owner, key, range) : fallback;
 }
 
-/// The candidate nearest to `word` by edit distance; nullopt if none is near enough to be a typing error.
+/// The candidate nearest to `word` by edit distance; nullopt if the distance of each is more than 2 and more than a
+/// third of the length of `word`.
 std::optional<std::string> nearest_word(std::string_view word, const std::vector<std::string>& candidates);
 
 }  // namespace rowland

@@ -35,10 +35,10 @@ void log_error(fmt::format_string<Args...> format, Args&&... args) {
 struct Message {
     std::string text;
     bool failure = false;
-    std::size_t number = 0;  ///< counts from the first message
+    std::size_t number = 0;  ///< 0 for the first message, 1 for the second, …
 };
 
-/// Messages to the user, newest last. Each is logged as well.
+/// The last 50 messages to the user, newest last. Each is logged as well.
 class Messages {
  public:
     void say(std::string text, bool failure = false) {

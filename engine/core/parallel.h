@@ -10,8 +10,9 @@
 
 namespace rowland {
 
-/// Calls body(i) for i in [0, count), on all cores. Results must not depend on the order: each i writes its own slot,
-/// and sums over i are taken afterwards, in order, so that any number of threads gives the same bytes.
+/// Calls body(i) for i in [0, count), on all cores, and rethrows an exception of `body`. Results must not depend on the
+/// order of the calls: let each i write its own slot and sum over i afterwards, in order, so that any number of threads
+/// gives the same bytes.
 void parallel_for(std::size_t count, const std::function<void(std::size_t)>& body);
 
 /// While it lives, parallel_for uses at most `threads` threads (0: all cores). For main programs' --threads and tests.
@@ -27,11 +28,12 @@ class ThreadLimit {
     std::unique_ptr<State> state_;
 };
 
-/// A value that is computed on first use. Copies share it. Any thread may ask.
+/// A value that is computed on first use, by any thread. Copies share it. If computing throws, the next use tries
+/// again.
 template <typename T>
 class Lazy {
  public:
-    Lazy(T value) : shared_(std::make_shared<Shared>()) {  // NOLINT(google-explicit-constructor): a T serves as one
+    Lazy(T value) : shared_(std::make_shared<Shared>()) {  // NOLINT(google-explicit-constructor): T converts to it
         shared_->value = std::move(value);
         shared_->computed = true;
     }
@@ -52,7 +54,7 @@ class Lazy {
     bool is_computed() const { return shared_->computed; }
 
  private:
-    // Not std::call_once, after whose exception ThreadSanitizer waits for ever.
+    // A mutex rather than std::call_once: under ThreadSanitizer the latter hangs after an exception.
     struct Shared {
         std::mutex mutex;
         std::atomic<bool> computed = false;

@@ -56,7 +56,7 @@ namespace fs = std::filesystem;
                 "install Rowland again, or free processes and files");
 }
 
-/// posix_spawn, because fork copies page tables and the locks that the drivers' threads hold.
+/// Starts the program by posix_spawn: fork would copy page tables and the locks that the drivers' threads hold.
 pid_t spawn(const fs::path& program, int standard_input) {
     posix_spawn_file_actions_t actions;
     posix_spawn_file_actions_init(&actions);
@@ -89,7 +89,7 @@ std::vector<fs::path> helper_folders() {
     if (dladdr(reinterpret_cast<const void*>(&helper_program), &library) == 0) library.dli_fname = "";
     for (const fs::path& file : {running, fs::path(library.dli_fname)}) {
         const fs::path folder = file.parent_path();
-        // A program is named as it was called, and may be the library.
+        // For code in the program itself dladdr() gives argv[0]: a path that may be relative, or into the same folder.
         if (!folder.is_absolute() || (!folders.empty() && folder == folders.front())) continue;
         folders.push_back(folder);
         folders.push_back((folder / ROWLAND_HELPER_FOLDER_FROM_BIN).lexically_normal());

@@ -15,8 +15,9 @@ namespace rowland {
 /// such as results that could not be written. Errors are printed as one line on standard error.
 int run_program(const std::function<int()>& body);
 
-/// "PROGRAM 0.1.0, commit 0123456789ab, GNU 12.2.0 Release". The commit is read from a file that the build writes,
-/// since a program that changed with each commit would cook all assets again; "unknown" without it.
+/// "PROGRAM 0.1.0, commit 0123456789ab, GNU 12.2.0 Release". The commit is read from a file that the build writes
+/// ("unknown" if it is missing) and not compiled in: a program that changed with each commit would cook all assets
+/// again.
 std::string version_text(const std::string& program);
 
 /// A helper program for work that may crash, hang or exhaust memory. Both sides exchange bytes over a socket, which is
@@ -34,9 +35,10 @@ class ChildProcess {
 
     /// Sends all bytes to the program. Ended: the program has ended; Late: it did not take them by the deadline.
     Exchange send(std::span<const std::byte> bytes, Deadline deadline);
-    /// Fills `bytes` with what the program sends.
+    /// Fills `bytes` with what the program sends. Ended and Late as for send().
     Exchange receive(std::span<std::byte> bytes, Deadline deadline);
-    /// How the program ended: "ended by signal 11", "ended with code 1".
+    /// How the program ended: "ended by signal 11", "ended with code 1"; "ended" if it was asked before. Kills a
+    /// program that still runs.
     std::string ending();
 
  private:

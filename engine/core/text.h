@@ -38,7 +38,7 @@ struct EmbeddedFile {
     std::string_view text;
 };
 
-/// The text of the file of that name, which must be among `files`.
+/// The text of the file called `name`, which must be among `files`.
 std::string_view embedded_text(std::span<const EmbeddedFile> files, std::string_view name);
 
 }  // namespace rowland

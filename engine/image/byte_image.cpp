@@ -26,7 +26,7 @@ namespace {
 constexpr std::array<std::uint8_t, 8> kSignature = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1A, '\n'};
 constexpr std::size_t kChunkFrame = 12;  ///< a chunk's length, type and checksum
 constexpr std::size_t kHeaderLength = 13;
-/// Deflate makes at most 1032 bytes of one (zlib's technical notes), of 8 texels each.
+/// Deflate expands a byte to at most 1032 bytes (zlib's technical notes), each of which holds at most 8 texels.
 constexpr std::uint64_t kMaximumTexelsPerPngByte = std::uint64_t{1032} * 8;
 
 [[noreturn]] void fail(const std::string& file, std::size_t at, std::string found, std::string expected) {
@@ -39,7 +39,7 @@ std::uint32_t big_endian(std::span<const std::byte> bytes) {
     return value;
 }
 
-/// A chunk; `framed` with its length, type and checksum.
+/// A chunk; `framed` includes its length, type and checksum.
 struct Chunk {
     std::string_view type;
     std::span<const std::byte> framed;
@@ -55,8 +55,8 @@ Chunk chunk_at(std::span<const std::byte> bytes, std::size_t at, const std::stri
             bytes.subspan(at + 8, length)};
 }
 
-/// The chunks that hold the image. Dropped are gamma and profiles, which libpng would apply to the values, and texts,
-/// which it would inflate.
+/// The file with only the chunks that hold the image: without gamma and profiles, which libpng would apply to the
+/// values, and without texts, which it would inflate.
 std::vector<std::byte> picture_chunks(std::span<const std::byte> bytes, const std::string& file) {
     std::vector<std::byte> kept(bytes.begin(), bytes.begin() + kSignature.size());
     kept.reserve(bytes.size());
@@ -109,7 +109,7 @@ ByteImage decode_png(std::span<const std::byte> bytes, const std::string& file) 
     return result;
 }
 
-/// A block of 8 × 8 texels takes at least one bit; twice that to be safe.
+/// A block of 8 × 8 texels takes at least one bit. The factor 2 is for safety.
 constexpr std::uint64_t kMaximumTexelsPerJpegByte = std::uint64_t{8} * 64 * 2;
 
 struct Close {
@@ -143,7 +143,7 @@ ByteImageSize size_of(std::span<const std::byte> bytes, const Decoder& decoder, 
           decoder, file);
     check_image_size(width, height, file, "");
     check_compression(width, height, bytes.size(), kMaximumTexelsPerJpegByte, file);
-    // RGBA, and 16-bit coefficients of three channels, all of which a progressive file has decoded at once.
+    // RGBA, and for progressive files the 16-bit coefficients of three channels, all of which are in memory at once.
     const std::uint64_t texels = static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
     check_decoded_bytes(width, height, (4 + 3 * 2) * texels, bytes.size(), file);
     return {width, height};

@@ -21,13 +21,13 @@ struct ByteImageSize {
     int height = 0;
 };
 
-/// The size in a PNG's or JPEG's header. Throws Error (input), also above the limits of image/image.h.
+/// The size in a PNG's or JPEG's header. Throws Error (input) for other bytes and above the limits of image/image.h.
 ByteImageSize byte_image_size(std::span<const std::byte> bytes, const std::string& file);
 
-/// Decodes a PNG or a JPEG, whichever the first bytes say. Grey and palette become RGB, missing alpha 255, 16 bits 8.
+/// Decodes a PNG or a JPEG, recognised by the first bytes. Grey and palette become RGB, missing alpha 255, 16 bits 8.
 /// Colour profiles and gamma are ignored, as glTF 2.0, 3.8.3 requires. `file` names the bytes in messages. Throws Error
-/// (input), also for pictures above the limits of image/image.h, before anything is allocated for them, and for cut
-/// ones.
+/// (input) for damaged and truncated pictures, and for those above the limits of image/image.h before anything is
+/// allocated for them.
 ByteImage decode_byte_image(std::span<const std::byte> bytes, const std::string& file);
 
 /// True if the bytes begin as a PNG or a JPEG does.

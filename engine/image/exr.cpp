@@ -30,7 +30,7 @@ namespace rowland::image {
 
 namespace {
 
-/// Rows decoded at a time: a multiple of every compression's block, so that none is decoded twice.
+/// Rows decoded at a time: a multiple of every compression's block of scanlines, so that none is decoded twice.
 constexpr int kRowsAtATime = 256;
 
 /// OpenEXR's input, from memory.
@@ -114,7 +114,7 @@ void read_rows(Imf::InputPart& part, const ChannelNames& names, const Imath::Box
     for (std::size_t i = 0; i < count; ++i) rows[i] = glm::vec3(rows[i].x);
 }
 
-/// The conversion of the channels to Rec.709; nullopt if they are in it.
+/// The matrix from the channels to Rec.709; nullopt if they are Rec.709.
 std::optional<glm::dmat3> conversion(const Imf::Header& header, const ChannelNames& names, const std::string& file) {
     if (names == kXyz) return colour::xyz_to_rec709();
     if (!Imf::hasChromaticities(header)) return std::nullopt;
@@ -138,7 +138,7 @@ Image read_part(Imf::InputPart& part, const std::string& file) {
     const ChannelNames names = usable_channels(header.channels(), file);
     const std::optional<glm::dmat3> to_rec709 = conversion(header, names, file);
 
-    // The header's check has limited the size.
+    // check_exr_header() has limited the size.
     Image image = make_image(window.max.x - window.min.x + 1, window.max.y - window.min.y + 1);
     for (int row = 0; row < image.height; row += kRowsAtATime) {
         const int last = std::min(image.height, row + kRowsAtATime) - 1;

@@ -83,7 +83,7 @@ void check_preview(ByteReader reader, std::size_t size) {
         reader.fail(fmt::format("a preview of {} x {} texels in {} bytes", width, height, size), "a whole preview");
 }
 
-/// Bytes of a value of a type of fixed size; nothing for others.
+/// The size in bytes of a value of this attribute type; nullopt if the type has no fixed size.
 std::optional<std::uint32_t> fixed_size(const std::string& type) {
     static const std::map<std::uint32_t, std::vector<std::string>> kTypes = {
         {1, {"compression", "deepImageState", "envmap", "lineOrder"}},
@@ -105,8 +105,8 @@ std::optional<std::uint32_t> fixed_size(const std::string& type) {
     return std::nullopt;
 }
 
-/// The library reads as many bytes as a type has, whatever size the attribute claims. Where these differ, it would read
-/// the next attribute from another position than this check.
+/// Refuses a value whose size is not its type's. The library reads as many bytes as the type has, whatever size the
+/// attribute claims, so it would read the next attribute from another position than this check.
 void check_value(ByteReader value, const std::string& name, const std::string& type, std::uint32_t size) {
     const auto fixed = fixed_size(type);
     if (fixed && *fixed != size)

@@ -50,7 +50,7 @@ struct Header {
     std::optional<colour::Primaries> primaries;
 };
 
-/// `count` numbers separated by blanks.
+/// `Count` numbers separated by blanks; `what` is the key, for messages.
 template <std::size_t Count>
 std::array<double, Count> parse_numbers(std::string_view text, const ByteReader& reader, std::string_view what) {
     std::array<double, Count> numbers{};
@@ -144,8 +144,8 @@ Resolution read_resolution(ByteReader& reader) {
             .leftward = axis[1 - y][0] == '-'};
 }
 
-/// Flat texels with the old repeat counts: (1, 1, 1, n) repeats the texel before n times; directly following counts are
-/// its higher bytes.
+/// Flat texels with the old repeat counts: (1, 1, 1, n) repeats the texel before it n times; a count directly after
+/// another holds the next higher byte of n.
 void read_old_scanline(ByteReader& reader, std::vector<Rgbe>& scanline) {
     std::size_t done = 0;
     unsigned shift = 0;
@@ -165,7 +165,7 @@ void read_old_scanline(ByteReader& reader, std::vector<Rgbe>& scanline) {
     }
 }
 
-/// Four channels one after another, each in runs (128 + n, value) and dumps (n, values).
+/// Four channels one after another, each as runs (128 + n, value) and literal values (n, values).
 void read_new_scanline(ByteReader& reader, std::vector<Rgbe>& scanline) {
     const Rgbe start = read_texel(reader);
     const std::size_t length = std::size_t{start[2]} << 8 | start[3];
@@ -191,15 +191,14 @@ bool starts_new_encoding(const ByteReader& reader) {
            (next[2] & std::byte{0x80}) == std::byte{0};
 }
 
-/// Radiance itself adds ½ to each mantissa, which makes a typical probe .3–.5 % brighter; most programs, and the
-/// reference radiances of the tests, do not.
+/// See read_radiance_hdr(). The ½ that Radiance adds to each mantissa would make a typical probe .3–.5 % brighter.
 glm::vec3 decode(const Rgbe& texel, const glm::dvec3& factor) {
     if (texel[3] == 0) return glm::vec3(0.0f);
     const glm::dvec3 mantissa(texel[0], texel[1], texel[2]);
     return glm::vec3(mantissa * std::ldexp(1.0, texel[3] - 136) * factor);
 }
 
-/// The fewest bytes that `resolution` can be stored in: a texel and a repeat count a scanline.
+/// The fewest bytes that an image of this size can be stored in: per scanline a texel and a repeat count.
 std::uint64_t fewest_bytes(const Resolution& resolution) {
     return static_cast<std::uint64_t>(resolution.scanlines()) * (resolution.length() > 1 ? 8u : 4u);
 }

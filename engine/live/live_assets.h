@@ -20,13 +20,14 @@ namespace rowland::live {
 struct LiveAssetSettings {
     std::string probe_mapping = "auto";              ///< of probe images
     std::optional<lighting::CaptureDome> dome{};     ///< of probe images
-    bool watch = true;                               ///< cooked assets follow their sources
-    std::vector<cook::Recooker::Job> follow_also{};  ///< cooks these when they change, if `watch`
-    /// Of scenes that are cooked on loading; empty: default_cache_folder().
+    bool watch = true;                               ///< whether poll() cooks `follow_also`
+    std::vector<cook::Recooker::Job> follow_also{};  ///< cooked again when their sources change
+    /// For scenes that are cooked on loading; empty: default_cache_folder().
     std::filesystem::path cache_folder{};
 };
 
-/// $XDG_CACHE_HOME/rowland, or ~/.cache/rowland.
+/// $XDG_CACHE_HOME/rowland, or ~/.cache/rowland, or rowland in the folder for temporary files if neither
+/// $XDG_CACHE_HOME nor $HOME is set.
 std::filesystem::path default_cache_folder();
 
 /// The assets of a running program, from cooked files or from sources that are baked on loading. They follow their
@@ -35,15 +36,15 @@ class LiveAssets {
  public:
     LiveAssets(std::shared_ptr<const cook::Registry> registry, LiveAssetSettings settings);
 
-    /// A cooked probe, a probe recipe, or an image with the mapping and dome of the settings. Like all below it throws
-    /// Error (input).
+    /// A cooked probe, a probe recipe, or an image with the mapping and dome of the settings. Throws Error (input), as
+    /// the three functions below do.
     asset::Handle<lighting::LightProbe> probe(const std::filesystem::path& path);
     /// A cooked scene, or a glTF file (load_scene()).
     asset::Handle<scene::ImportedScene> scene(const std::filesystem::path& path);
     /// All triangles of a glTF file.
     asset::Handle<scene::Mesh> mesh(const std::filesystem::path& path);
-    /// An asset of a registered type, cooked or as its source; `read` parses the cooked payload (`file` is for
-    /// messages).
+    /// An asset of the registered type `type`, cooked or from its .json source. `read` parses the cooked payload;
+    /// `file` is for its messages.
     template <typename T>
     asset::Handle<T> load(const std::filesystem::path& path, const std::string& type,
                           std::function<T(std::span<const std::byte> payload, const std::string& file)> read) {
@@ -52,11 +53,11 @@ class LiveAssets {
         });
     }
 
-    /// Once a frame. True if an asset was replaced, or could not be.
+    /// Call it every frame. Returns whether an asset was replaced or could not be reloaded.
     bool poll();
     /// Loads all assets again, changed or not.
     void reload_all() { store_.reload_all(); }
-    /// What could not be cooked or reloaded, and why, until it can.
+    /// Messages of the assets that could not be cooked or reloaded, until they can.
     std::vector<std::string> failures() const;
 
  private:

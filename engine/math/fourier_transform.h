@@ -6,9 +6,9 @@
 
 namespace rowland::math {
 
-/// The discrete Fourier transform X_k = Σ_j x_j e^(2πi jk/n), of kLanes sequences side by side. The opposite sign, and
-/// the inverse times n, is the same transform with the real and imaginary parts exchanged. In single precision, by
-/// Stockham's method: the error is about 1e-7 of the root mean square.
+/// The discrete Fourier transform X_k = Σ_j x_j e^(2πi jk/n) of kLanes sequences at once, in single precision, by
+/// Stockham's method. Exchange the real and imaginary parts of input and output for the transform with the opposite
+/// sign in the exponent, which is n times the inverse. The error is about 1e-7 of the root mean square.
 class FourierTransform {
  public:
     static constexpr std::size_t kLanes = 4;
@@ -23,7 +23,7 @@ class FourierTransform {
         std::span<float> real;
         std::span<float> imaginary;
     };
-    /// In place. `work`: of the same lengths, overwritten.
+    /// Transforms `data` in place. `work` has the same lengths and is overwritten.
     void operator()(Parts data, Parts work) const;
 
  private:

@@ -47,8 +47,9 @@ void check_bands(int bands) {
     ROWLAND_CHECK_OP(bands, <=, kMaximumFastBands);
 }
 
-/// Non-zero entries of the exchange of y and z, row after row; fewer bands are its beginning. The exchange is a
-/// rotation and a point reflection, which is (−1)^l; that factor is left out, since light is always exchanged twice.
+/// Non-zero entries of the matrix that exchanges y and z, row after row; light of fewer bands uses the first of them.
+/// The exchange is a rotation and a point reflection, which multiplies band l by (−1)^l; this factor is left out, since
+/// light is always exchanged twice.
 std::vector<float> make_exchange() {
     const glm::dmat3 rotation(glm::dvec3(-1, 0, 0), glm::dvec3(0, 0, -1), glm::dvec3(0, -1, 0));
     const ShRotation exchange(rotation, kMaximumFastBands);
@@ -88,7 +89,7 @@ void check_frames(const FrameArrays& frames) {
     }
 }
 
-/// Calls body(some of the frames, index of the first of them) for all of them, on all cores.
+/// Splits the frames into blocks and calls body(block, index of its first frame) for each, on all cores.
 template <typename Body>
 void for_each_block(const FrameArrays& frames, const Body& body) {
     check_frames(frames);

@@ -24,11 +24,12 @@ bool is_supported(InstructionSet set);
 /// The widest supported set.
 InstructionSet best_instruction_set();
 
-/// Most bands of the single-precision paths.
+/// The most bands that the single-precision paths take.
 inline constexpr int kMaximumFastBands = 16;
 
-/// Tangent frames (g, h, n), one array per component: n is `normal`, g is `tangent` less its part along n, h = n × g.
-/// Neither needs to be of unit length; a tangent along its normal gives some frame around that normal.
+/// Tangent frames (g, h, n), one array per component: n is `normal`, g is `tangent` without its component along n, both
+/// normalised, and h = n × g. The arrays need not hold unit vectors; where the tangent is parallel to the normal, g is
+/// any direction perpendicular to it.
 struct FrameArrays {
     std::array<std::span<const float>, 3> tangent;
     std::array<std::span<const float>, 3> normal;
@@ -37,17 +38,18 @@ struct FrameArrays {
 };
 
 /// Rotates band-limited RGB light into many tangent frames, in single precision and on all cores: rotations about z, y
-/// and z [Pinchon & Hoggan 2007, "Rotation matrices for real spherical harmonics"], the one about y by exchanging y and
-/// z, which is a fixed sparse matrix. No angle is computed, and the last rotation follows from the tangent after the
-/// other two, so no frame is singular. Error ≤ 2e-6 of the light's norm √Σ‖c‖², compared with ShRotation.
+/// and z [Pinchon & Hoggan 2007, "Rotation matrices for real spherical harmonics"]. The rotation about y is one about z
+/// between two exchanges of y and z, which are a fixed sparse matrix. No angle is computed, and the last rotation
+/// follows from the tangent after the other two, so no frame is singular. The error against ShRotation is ≤ 2e-6 of
+/// the light's norm √Σ‖c‖².
 ///
 /// For each frame writes bands² × 3 floats, RGB innermost. `light` holds bands² coefficients in the axes the frames are
 /// given in, 1 ≤ bands ≤ 16. out.size() ≥ frames.size() · bands² · 3.
 void rotate_to_frames(std::span<const glm::dvec3> light, int bands, const FrameArrays& frames, std::span<float> out,
                       InstructionSet set = best_instruction_set());
 
-/// A constant matrix of rows × bands² that is applied to light in a tangent frame, such as the one from coefficients to
-/// moments along an arc. Entries below 1e-9 of the largest are dropped, so zeros cost nothing.
+/// A constant matrix of rows × bands² that is applied to light in a tangent frame, such as the one that takes
+/// coefficients to moments along an arc. Entries up to 1e-9 of the largest are dropped, so zeros cost nothing.
 class FrameProjection {
  public:
     /// `matrix` is row-major, 1 to 256 rows of bands² entries, 1 ≤ bands ≤ 16.

@@ -144,7 +144,7 @@ struct Index {
     static constexpr int value = I;
 };
 
-/// f(Index<Begin>), …, f(Index<End − 1>), written out.
+/// Calls f(Index<Begin>), …, f(Index<End − 1>) without a loop.
 template <int Begin, int End, typename F>
 ROWLAND_INLINE void unroll(const F& f) {
     if constexpr (Begin < End) {
@@ -155,11 +155,12 @@ ROWLAND_INLINE void unroll(const F& f) {
 
 constexpr int kChannels = 3;
 
-/// Bands for which the loops are written out, 0: none. An instrumented build would take minutes to compile.
+/// The number of bands for which loops are unrolled. 0: none, for instrumented builds, which would take minutes to
+/// compile.
 #ifdef ROWLAND_MATH_KEEP_LOOPS
-constexpr int kWrittenOutBands = 0;
+constexpr int kUnrolledBands = 0;
 #else
-constexpr int kWrittenOutBands = 5;
+constexpr int kUnrolledBands = 5;
 #endif
 
 constexpr int kMostBands = 16;
@@ -171,7 +172,7 @@ struct AngleMultiples {
     Vec sine[kMostBands];
 };
 
-/// By halving m, so that rounding grows with log m.
+/// Fills `angle` from cos θ and sin θ. Multiple m is the sum of two halves, so that rounding grows with log m.
 ROWLAND_INLINE void fill_multiples(Vec cosine, Vec sine, int bands, AngleMultiples& angle) {
     angle.cosine[0] = broadcast(1);
     angle.sine[0] = Vec{};
@@ -192,8 +193,8 @@ struct FrameAngles {
     AngleMultiples last;
 };
 
-/// The unit vector along (x, y), or (1, 0) where that is nothing beside `scale`, the square of a length. Returns the
-/// length of (x, y), then 0.
+/// The unit vector (cosine, sine) along (x, y), and as the result the length of (x, y). (1, 0) and 0 where that length
+/// is below 1e-12 √scale.
 ROWLAND_INLINE Vec direction(Vec x, Vec y, Vec scale, Vec& cosine, Vec& sine) {
     const Vec squared = x * x + y * y;
     const auto usable = squared > 1e-24F * scale;
@@ -223,7 +224,7 @@ ROWLAND_INLINE void find_angles(const Vec (&g)[3], const Vec (&n)[3], int bands,
     fill_multiples(cos_last, sin_last, bands, angles.last);
 }
 
-/// Calls f(l, m) for all m of all bands (or all m ≥ 0), with the loops written out if Bands > 0.
+/// Calls f(l, m) for all m of all bands, with unrolled loops if Bands > 0.
 template <int Bands, typename F>
 ROWLAND_INLINE void for_each_coefficient(int bands, const F& f) {
     if constexpr (Bands > 0)
@@ -236,7 +237,7 @@ ROWLAND_INLINE void for_each_coefficient(int bands, const F& f) {
             for (int m = -l; m <= l; ++m) f(l, m);
 }
 
-/// Light rotated about z by −θ, for light that is the same in all lanes (`in` are floats) or not (vectors).
+/// Light rotated about z by −sign · θ. `in`: floats for light that is the same in all lanes, else vectors.
 template <int Bands, typename In>
 ROWLAND_INLINE void rotate_about_z(const In* in, const AngleMultiples& angle, float sign, int bands, Vec* out) {
     for_each_coefficient<Bands>(
@@ -275,7 +276,7 @@ ROWLAND_INLINE void exchange_y_and_z(const Vec* in, const float* weight, int ban
         });
 }
 
-/// The light in kLanes frames, 3 bands² vectors, RGB innermost.
+/// The light in kLanes frames: `rotated` receives 3 bands² vectors, RGB innermost.
 template <int Bands>
 ROWLAND_INLINE void rotate_lanes(const Light& light, const Vec (&g)[3], const Vec (&n)[3], Vec* rotated) {
     FrameAngles angles;
@@ -332,8 +333,8 @@ void rotate_all(const Light& light, const Frames& frames, const Finish& finish, 
 
 template <typename Finish>
 void rotate_whole_lanes(const Light& light, const Frames& frames, const Finish& finish, float* out) {
-    if (light.bands == kWrittenOutBands)
-        rotate_all<kWrittenOutBands>(light, frames, finish, out);
+    if (light.bands == kUnrolledBands)
+        rotate_all<kUnrolledBands>(light, frames, finish, out);
     else
         rotate_all<0>(light, frames, finish, out);
 }

@@ -16,7 +16,7 @@ constexpr auto kBands = static_cast<std::size_t>(kMaximumBands);
 
 /// Factors of the recurrences of the normalised associated Legendre functions divided by sin^m θ,
 /// P_m,m = diagonal[m],  P_l,m = a[m][l] z P_l−1,m − b[m][l] P_l−2,m  [Press et al., Numerical Recipes, 3rd ed., §6.7].
-/// m ≠ 0 has the √2 of the real basis.
+/// For m ≠ 0 `diagonal` includes the √2 of the real basis.
 struct Recurrence {
     std::array<double, kBands> diagonal{};
     std::array<std::array<double, kBands>, kBands> a{};
@@ -125,7 +125,7 @@ constexpr std::size_t block_offset(int l) {
     return l == 0 ? 0 : k * (2 * k - 1) * (2 * k + 1) / 3;
 }
 
-/// Row i of band 1 in x, y, z terms: m = −1, 0, 1 are y, z, x.
+/// The axis (0, 1, 2: x, y, z) along which function m of band 1 lies: y, z, x for m = −1, 0, 1.
 constexpr int axis_of(int m) {
     return m == 0 ? 2 : m == 1 ? 0 : 1;
 }

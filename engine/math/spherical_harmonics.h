@@ -28,7 +28,7 @@ constexpr int sh_index(int l, int m) {
 void evaluate_sh(const glm::dvec3& direction, int bands, std::span<double> values);
 
 /// Windows against ringing, the weakest first. A window multiplies band l of band-limited light by a factor that falls
-/// from 1 at l = 0; it trades peak height for undershoot [Sloan 2008, "Stupid SH tricks", windowing].
+/// from 1 at l = 0 (None: 1); it lowers peaks and reduces undershoot [Sloan 2008, "Stupid SH tricks", windowing].
 enum class SphericalWindow { None, Lanczos, Hann };
 
 /// "none", "lanczos" or "hann".
