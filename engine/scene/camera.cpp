@@ -126,7 +126,7 @@ void FlyCamera::update(const FlyInput& input, double seconds) {
     // dv/dt = (wanted - v) / response, solved exactly over the frame.
     const glm::dvec3 wanted = wanted_velocity(input);
     const double response = settings_.response_s;
-    const double decayed = -std::expm1(-seconds / response);  // fraction of the difference
+    const double decayed = -std::expm1(-seconds / response);  // fraction of the difference to `wanted`
     position_ += wanted * seconds + (velocity_ - wanted) * (response * decayed);
     velocity_ += (wanted - velocity_) * decayed;
     if (settings_.room) stay_in(*settings_.room);

@@ -24,8 +24,8 @@ struct Camera {
     glm::mat4 projection(float aspect) const;
 };
 
-/// `camera` with its direction, moved to where a sphere of `radius` about its new `target` fills the picture's height
-/// but for a margin of a tenth.
+/// Moves a camera so that it looks at `target` in the same direction, from where a sphere of `radius` about the target
+/// fills the picture's height but for a margin of a tenth.
 Camera framed(Camera camera, const glm::vec3& target, float radius);
 
 /// Steepest pitch of the interactive cameras, 89 degrees: at the poles the up vector +Y gives no orientation.

@@ -265,7 +265,7 @@ std::string describe_scene(const ImportedScene& scene, const std::string& file,
             const std::string pointer = pointer_of(i, extension.name);
             text += fmt::format("\nmaterial: {} \"{}\"\nextension: {}\n", i, scene.materials[i].name, extension.name);
             const auto tables = scene.materials[i].tables.find(extension.name);
-            // An object is described only in a source, which has the files that the object names beside it.
+            // With tables the object is not described: files that it names may be beside the source only.
             if (tables == scene.materials[i].tables.end())
                 text += fmt::format("object: {}\n", extension.describe(object, file, pointer));
             else

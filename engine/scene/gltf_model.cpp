@@ -17,8 +17,8 @@ namespace rowland::scene {
 namespace {
 
 /// Parses what check_gltf() returned. tinygltf gets neither buffers nor images, which load_uri() reads. An accessor
-/// without a buffer view gets a temporary one, since tinygltf refuses indices without one, as they are in a Draco
-/// stream.
+/// without a buffer view gets a temporary one, since tinygltf refuses indices without a view, which primitives with a
+/// Draco stream have.
 gltf::Model parse_model(nlohmann::json checked, const std::string& file) {
     nlohmann::json images = checked.value("images", nlohmann::json::array());
     for (const char* array : {"buffers", "images"}) checked.erase(array);

@@ -17,7 +17,7 @@
 #include "engine/scene/tinygltf.h"
 
 // Functions that make the parts of an ImportedScene from those of a checked glTF file. All throw Error (input) with the
-// JSON pointer, and add a warning to the scene's for each thing that they ignore or repair.
+// JSON pointer; the scene's warnings say what they ignored or repaired.
 namespace rowland::scene {
 
 // gltf_model.cpp: the file and its accessors.
