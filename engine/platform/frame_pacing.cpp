@@ -15,7 +15,7 @@ double milliseconds(std::chrono::nanoseconds time) {
     return std::chrono::duration<double, std::milli>(time).count();
 }
 
-/// The smallest of the sorted times that is not exceeded by `percent` % of them (nearest rank).
+/// The smallest of the sorted times that at least `percent` % of them do not exceed (nearest rank).
 std::chrono::nanoseconds percentile(const std::vector<std::chrono::nanoseconds>& sorted, std::size_t percent) {
     const std::size_t rank = (sorted.size() * percent + 99) / 100;
     return sorted[std::max<std::size_t>(rank, 1) - 1];

@@ -81,7 +81,7 @@ const char* client_extensions() {
     return eglQueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
 }
 
-/// A way to a GPU.
+/// An EGL display that may give a context on a GPU.
 struct Candidate {
     EGLDisplay display = EGL_NO_DISPLAY;
     const char* platform = "";
@@ -90,7 +90,7 @@ struct Candidate {
 
 constexpr const char* kSoftwareDevice = "EGL software device";
 
-/// As the kernel names it; empty where it does not, or the driver does not tell.
+/// The device's PCI slot as the kernel names it; empty where the driver or the kernel does not tell.
 std::string pci_slot(EGLDeviceEXT device) {
     if (!has_word(eglQueryDeviceStringEXT(device, EGL_EXTENSIONS), "EGL_EXT_device_drm")) return {};
     const char* file = eglQueryDeviceStringEXT(device, EGL_DRM_DEVICE_FILE_EXT);
@@ -100,7 +100,7 @@ std::string pci_slot(EGLDeviceEXT device) {
     return std::filesystem::canonical(card / "device", none).filename().string();
 }
 
-/// In the driver's order.
+/// The EGL devices, in the driver's order.
 std::vector<Candidate> devices() {
     const bool enumerable = has_word(client_extensions(), "EGL_EXT_device_enumeration") ||
                             has_word(client_extensions(), "EGL_EXT_device_base");
@@ -118,8 +118,8 @@ std::vector<Candidate> devices() {
     return candidates;
 }
 
-/// Hardware first. Mesa's software renderer is reached through the surfaceless platform, which every version of it has,
-/// rather than as a device.
+/// Hardware first. For Mesa's software renderer the surfaceless platform, which every version of Mesa has, comes before
+/// its device.
 std::vector<Candidate> candidates() {
     std::vector<Candidate> all = devices();
     const auto software = std::stable_partition(
@@ -165,7 +165,7 @@ EGLContext create_context(EGLDisplay display, bool debug, std::string& reason) {
                           EGL_NONE};
     EGLContext context = eglCreateContext(display, config, EGL_NO_CONTEXT, attributes.data());
     if (context == EGL_NO_CONTEXT) {
-        // Not every driver can tell of a reset (gpu/context.h).
+        // Not every driver can report resets (gpu/context.h).
         attributes[attributes.size() - 3] = EGL_NONE;
         context = eglCreateContext(display, config, EGL_NO_CONTEXT, attributes.data());
     }
@@ -174,7 +174,7 @@ EGLContext create_context(EGLDisplay display, bool debug, std::string& reason) {
     return context;
 }
 
-/// Whether `wanted` is the number or a part of the name, in capitals or not.
+/// Whether `wanted` is the number or, ignoring case, a part of the name.
 bool is_wanted(std::string_view wanted, std::size_t number, std::string_view name) {
     if (wanted == std::to_string(number)) return true;
     const auto lower = [](char c) { return std::tolower(static_cast<unsigned char>(c)); };

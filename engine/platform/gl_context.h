@@ -22,22 +22,23 @@ struct GpuName {
     std::string pci_slot;  ///< as "0000:01:00.0"; empty where it is unknown
 };
 
-/// Environment variables by which the drivers of a display that another GPU shows draw on this one. A window has no
-/// other way to a GPU: neither GLX nor a Wayland display lists them. Read when a context is made.
+/// Environment variables that make a driver render on this GPU for a display that another GPU shows (render offload).
+/// A window has no other way to choose a GPU: neither GLX nor a Wayland display lists them. Drivers read the variables
+/// when a context is made.
 std::vector<std::pair<std::string, std::string>> offload_variables(const GpuName& gpu);
 
-/// Where a choice is made, finds the GPU and sets its offload_variables(), but for those that are set; for windows that
-/// open later. No other thread may read the environment meanwhile. Returns the GPU's renderer, or an empty text if no
-/// choice is made. Throws Error (input) that lists the GPUs if none is the one that is asked for.
+/// If wanted_gpu() names a GPU, finds it and sets its offload_variables() for windows that open later, except variables
+/// that are set already. No other thread may read the environment meanwhile. Returns the GPU's GL_RENDERER, or an empty
+/// text if no GPU is named. Throws as HeadlessContext does.
 std::string choose_gpu_of_windows(const std::string& option);
 
-/// Throws Error (system) if the current context draws on another GPU than the `chosen` one; empty: any.
+/// Throws Error (system) if the current context's GL_RENDERER is not `chosen`; empty: any is accepted.
 void require_gpu_of_window(const std::string& chosen);
 
 struct HeadlessOptions {
     bool debug = debug_build();  ///< a debug context: the driver reports errors through KHR_debug (gpu/context.h)
-    /// The number of a GPU or a part of its name, as the error for a wrong one lists them ("?" is always wrong). Empty:
-    /// what the environment variable ROWLAND_GPU says, or the first.
+    /// The number of a GPU or a part of its name; if none matches, as for "?", the error lists them. Empty: what the
+    /// environment variable ROWLAND_GPU says, or the first.
     std::string gpu{};
 };
 

@@ -31,7 +31,7 @@ void release_all(Buttons& buttons) {
     for (ButtonState& button : buttons) set_down(button, false);
 }
 
-/// Whether text may hold it: neither a control character nor half of a surrogate pair.
+/// Whether `c` may be in a text: it is neither a control character nor half of a surrogate pair.
 bool is_text(char32_t c) {
     const bool control = c < 0x20 || (c >= 0x7F && c < 0xA0);
     const bool surrogate = c >= 0xD800 && c < 0xE000;
@@ -124,7 +124,7 @@ void InputState::on(const CursorCaptureEvent&) {
 
 void InputState::on(const GamepadEvent& event) {
     gamepad_.connected = event.connected;
-    // A pad is read whoever has the focus; its player may be playing something else.
+    // The pad is read even while another program has the focus, which the player may be using.
     const GamepadEvent reading = event.connected && focused_ ? event : GamepadEvent{};
     gamepad_.axes = reading.axes;
     for (std::size_t i = 0; i < pad_.size(); ++i) set_down(pad_[i], reading.buttons[i]);

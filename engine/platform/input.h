@@ -109,7 +109,8 @@ class InputState {
     bool any_down() const;
     const ButtonState& gamepad_button(GamepadButton button) const { return pad_[static_cast<std::size_t>(button)]; }
 
-    /// -1 if `negative` was down at any time of the frame, 1 if `positive` was, 0 for neither or both.
+    /// A key counts if it is down at the end of the frame or was pressed in it: -1 for `negative`, 1 for `positive`, 0
+    /// for neither or both.
     float key_axis(Key negative, Key positive) const;
 
     /// Screen coordinates, y down; unbounded while the cursor is captured, when only differences have a meaning.
@@ -157,6 +158,7 @@ class InputState {
 
 /// The label of a key, as "W", "F5" or "Left Shift". Unique.
 std::string name_of(Key key);
+/// The key with that label; nullopt if there is none.
 std::optional<Key> key_named(std::string_view name);
 
 /// The key or button of a GLFW code; nullopt if the enumeration lacks it.

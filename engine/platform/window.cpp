@@ -54,10 +54,6 @@ std::string take_glfw_error() {
     return failed && description != nullptr ? description : "";
 }
 
-}  // namespace
-
-namespace {
-
 /// XErrorEvent of Xlib.h.
 struct XError {
     int type;
@@ -133,7 +129,7 @@ WindowEvents& events_of(GLFWwindow* window) {
 }
 
 void on_key(GLFWwindow* window, int key, int /*scancode*/, int action, int /*mods*/) {
-    // Repeats are for typed text.
+    // Repeats matter for typed text only, which has its own callback.
     const std::optional<Key> known = key_of_glfw(key);
     if (known && action != GLFW_REPEAT) events_of(window).input.push_back(KeyEvent{*known, action == GLFW_PRESS});
 }
@@ -177,7 +173,7 @@ GamepadEvent read_gamepad() {
     if (joystick > GLFW_JOYSTICK_LAST) return {};
 
     GamepadEvent event{.connected = true, .axes = {}, .buttons = {}};
-    // GLFW's sticks grow downwards and its triggers go from -1.
+    // GLFW's y axes of sticks point down, and its triggers go from -1 to 1.
     const auto stick = [&](int axis) { return state.axes[axis]; };
     const auto trigger = [&](int axis) { return 0.5F * (state.axes[axis] + 1.0F); };
     event.axes = {stick(GLFW_GAMEPAD_AXIS_LEFT_X),         -stick(GLFW_GAMEPAD_AXIS_LEFT_Y),
@@ -215,7 +211,7 @@ GLFWwindow* open(const WindowOptions& options) {
     glfwWindowHint(GLFW_OPENGL_DEBUG_CONTEXT, options.debug ? GLFW_TRUE : GLFW_FALSE);
     // Resets of the GPU are reported (gpu/context.h), where the driver can.
     glfwWindowHint(GLFW_CONTEXT_ROBUSTNESS, GLFW_LOSE_CONTEXT_ON_RESET);
-    // The scene is drawn into framebuffer objects that bring their own.
+    // The scene is drawn into framebuffer objects with depth and stencil buffers of their own.
     glfwWindowHint(GLFW_DEPTH_BITS, 0);
     glfwWindowHint(GLFW_STENCIL_BITS, 0);
     take_glfw_error();

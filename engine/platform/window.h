@@ -25,12 +25,12 @@ struct ScreenArea {
     friend bool operator==(const ScreenArea&, const ScreenArea&) = default;
 };
 
-/// Index of the monitor that shows the largest part of `window`; the first of equals, 0 (the primary one) if none shows
-/// any.
+/// Index of the monitor that shows the largest part of `window`: of equals the first, and 0 (the primary one) if none
+/// shows any of it.
 std::size_t monitor_showing(const ScreenArea& window, std::span<const ScreenArea> monitors);
 
-/// Whether a Window can open: X11 or Wayland is announced in the environment and answers. Never throws and opens
-/// nothing. Main thread only.
+/// Whether a Window can open: X11 or Wayland is announced in the environment and answers. Never throws. If true, the
+/// connection stays open until the program ends. Main thread only.
 bool display_available();
 
 struct WindowOptions {
@@ -38,7 +38,7 @@ struct WindowOptions {
     glm::ivec2 size{1280, 720};  ///< screen coordinates, each >= 1
     bool vsync = true;
     bool debug = debug_build();  ///< a debug context: the driver reports errors through KHR_debug (gpu/context.h)
-    std::string gpu{};           ///< as HeadlessOptions'
+    std::string gpu{};           ///< as HeadlessOptions::gpu
 };
 
 /// A window with an OpenGL 4.5 core context, which is current on the thread that made it. All members are for the main
@@ -55,7 +55,7 @@ class Window {
     using DropHandler = std::function<void(const std::vector<std::filesystem::path>&)>;
 
     /// Throws Error (system) that names what is missing if there is no display, no OpenGL 4.5 core, or if the display
-    /// does not draw on the GPU that is asked for; and Error (input) that lists the GPUs if none is that one.
+    /// does not draw on the GPU that is asked for; and Error (input) that lists the GPUs if none is the one asked for.
     explicit Window(const WindowOptions& options = {});
     ~Window();
     Window(const Window&) = delete;
@@ -65,8 +65,8 @@ class Window {
     /// Shows what was drawn; waits for the display if vsync is on.
     void swap();
 
-    /// The input since the last poll, in order. Passes dropped files to the drop handler first, and what that throws to
-    /// the caller.
+    /// The input since the last poll, in order, and then the state of the game pad. Calls the drop handler first for
+    /// dropped files, and passes on what it throws.
     std::vector<InputEvent> poll_events();
     /// Waits until something happens to a window (input, exposure, another size), at most `limit` (> 0). False if
     /// nothing did.
@@ -91,7 +91,7 @@ class Window {
     bool focused() const;
 
     bool fullscreen() const;
-    /// Fills the monitor that shows most of the window, in the mode it has; back restores the old position and size.
+    /// True: fills the monitor that shows most of the window, in the mode it has. False: restores position and size.
     void set_fullscreen(bool on);
 
     bool cursor_captured() const;

@@ -32,8 +32,8 @@ struct Animation {
     float duration_s = 0.0F;  ///< the last key's time
 };
 
-/// A channel's value at a time, constant before the first and after the last key. Rotations are unit quaternions,
-/// interpolated along the shortest arc.
+/// A channel's value at a time, constant before the first and after the last key. Rotations are returned as unit
+/// quaternions; linear ones are interpolated along the shorter arc (glTF 2.0, appendix C).
 glm::vec4 sample(const AnimationChannel& channel, float time_s);
 
 /// Writes the animated properties into `nodes` (indexed by AnimationChannel::node).

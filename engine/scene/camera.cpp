@@ -47,16 +47,18 @@ Camera framed(Camera camera, const glm::vec3& target, float radius) {
 }
 
 glm::vec3 direction_of(ViewAngles angles) {
-    const double level = std::cos(angles.pitch);
-    return glm::vec3(glm::dvec3(level * std::sin(angles.yaw), std::sin(angles.pitch), level * std::cos(angles.yaw)));
+    const double horizontal = std::cos(angles.pitch);
+    return glm::vec3(
+        glm::dvec3(horizontal * std::sin(angles.yaw), std::sin(angles.pitch), horizontal * std::cos(angles.yaw)));
 }
 
 ViewAngles angles_of(glm::vec3 direction) {
     // In double, where no float overflows when squared.
     const glm::dvec3 d(direction);
-    const double level = std::hypot(d.x, d.z);
-    if (!std::isfinite(level) || !std::isfinite(d.y)) return {};
-    return {.yaw = std::atan2(d.x, d.z), .pitch = std::clamp(std::atan2(d.y, level), -kMaximumPitch, kMaximumPitch)};
+    const double horizontal = std::hypot(d.x, d.z);
+    if (!std::isfinite(horizontal) || !std::isfinite(d.y)) return {};
+    return {.yaw = std::atan2(d.x, d.z),
+            .pitch = std::clamp(std::atan2(d.y, horizontal), -kMaximumPitch, kMaximumPitch)};
 }
 
 ViewAngles turned(ViewAngles angles, double yaw, double pitch) {
@@ -124,9 +126,9 @@ void FlyCamera::update(const FlyInput& input, double seconds) {
     // dv/dt = (wanted - v) / response, solved exactly over the frame.
     const glm::dvec3 wanted = wanted_velocity(input);
     const double response = settings_.response_s;
-    const double forgotten = -std::expm1(-seconds / response);
-    position_ += wanted * seconds + (velocity_ - wanted) * (response * forgotten);
-    velocity_ += (wanted - velocity_) * forgotten;
+    const double decayed = -std::expm1(-seconds / response);  // fraction of the difference to `wanted`
+    position_ += wanted * seconds + (velocity_ - wanted) * (response * decayed);
+    velocity_ += (wanted - velocity_) * decayed;
     if (settings_.room) stay_in(*settings_.room);
     angles_ = turned(angles_, half_yaw, half_pitch);
 }

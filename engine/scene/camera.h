@@ -10,7 +10,7 @@
 
 namespace rowland::scene {
 
-/// A perspective camera that looks from `eye` at `target`. World axes, metres.
+/// A perspective camera that looks from `eye` at `target`. In world space, lengths in metres.
 struct Camera {
     glm::vec3 eye{0.0F, 0.0F, 1.0F};
     glm::vec3 target{0.0F};
@@ -24,7 +24,8 @@ struct Camera {
     glm::mat4 projection(float aspect) const;
 };
 
-/// The camera, moved until a sphere about its new target fills the picture's height; its direction stays.
+/// Moves a camera so that it looks at `target` in the same direction, from where a sphere of `radius` about the target
+/// fills the picture's height but for a margin of a tenth.
 Camera framed(Camera camera, const glm::vec3& target, float radius);
 
 /// Steepest pitch of the interactive cameras, 89 degrees: at the poles the up vector +Y gives no orientation.
@@ -47,7 +48,7 @@ ViewAngles turned(ViewAngles angles, double yaw, double pitch);
 
 struct OrbitSettings {
     float radians_per_pixel = 0.005F;  ///< of drag
-    float zoom_per_notch = 0.1F;       ///< natural logarithm of the distance per notch of the wheel
+    float zoom_per_notch = 0.1F;       ///< change of the distance's natural logarithm per notch of the wheel
     float minimum_distance = 0.02F;    ///< metres, > 0
     float maximum_distance = 1000.0F;  ///< metres
 };
@@ -102,14 +103,14 @@ struct FlyInput {
 };
 
 /// A camera that flies, +Y up, always upright: the pitch ends short of the poles. The velocity follows the input with a
-/// time constant, solved exactly for constant input, so the path does not depend on the frame rate; only while the view
-/// turns does the frame length enter, to second order. Input that is not finite is ignored.
+/// time constant, solved exactly for constant input, so the path does not depend on the frame rate, except for an error
+/// of second order in the frame's length while the view turns. Input that is not finite is ignored.
 class FlyCamera {
  public:
     /// Starts at `start`, whose lens (field of view, near and far plane) it keeps.
     explicit FlyCamera(const Camera& start, FlySettings settings = {});
 
-    /// `seconds` long; a negative or non-finite time counts as none.
+    /// Advances by a frame of `seconds`; a negative or non-finite time counts as zero.
     void update(const FlyInput& input, double seconds);
     /// Its target is one metre ahead.
     Camera camera() const;
@@ -121,7 +122,7 @@ class FlyCamera {
 
  private:
     glm::vec3 wanted_velocity(const FlyInput& input) const;
-    /// Slides along its walls.
+    /// Keeps the position inside and removes the velocity into the walls, so that the eye slides along them.
     void stay_in(const Bounds& room);
 
     FlySettings settings_;

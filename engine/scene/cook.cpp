@@ -31,7 +31,7 @@ using Bytes = std::vector<std::byte>;
 constexpr std::uint32_t kLayoutVersion = 2;
 constexpr const char* kProbeAssetType = "probe";
 
-/// The bytes of the file that an object's "uri" names, and removes that member; nullopt: it names none.
+/// Removes an object's "uri" if it names a file, and returns the bytes of that file; nullopt if it names none.
 std::optional<Bytes> take_named_file(cook::Context& context, const GltfSource& source, nlohmann::json& object) {
     const auto uri = object.find("uri");
     if (uri == object.end() || uri->get_ref<const std::string&>().starts_with("data:")) return std::nullopt;
@@ -46,8 +46,8 @@ struct PackedBuffer {
     std::size_t offset;
 };
 
-/// Makes the binary chunk the first buffer and moves into it what buffers and images name. Embedded base64 stays. The
-/// chunk's data.
+/// Makes the binary chunk the first buffer and moves into it the files that buffers and images name; embedded base64
+/// stays. Returns the chunk's data.
 Bytes embed_files(cook::Context& context, GltfSource& source) {
     Bytes chunk;
     const auto append = [&](std::span<const std::byte> bytes) {
@@ -82,16 +82,16 @@ Bytes embed_files(cook::Context& context, GltfSource& source) {
         image["bufferView"] = views.size();
         views.push_back({{"buffer", 0}, {"byteOffset", append(*bytes)}, {"byteLength", bytes->size()}});
     }
-    if (chunk.empty() && buffers.size() > 1) chunk.resize(4);  // the others keep their numbers
+    if (chunk.empty() && buffers.size() > 1) chunk.resize(4);  // keeps buffer 0, so the others' indices hold
     buffers[0]["byteLength"] = chunk.size();
     source.json["buffers"] = std::move(buffers);
     source.json["bufferViews"] = std::move(views);
-    for (const char* key : {"buffers", "bufferViews", "images"})  // glTF has no empty arrays
+    for (const char* key : {"buffers", "bufferViews", "images"})  // glTF forbids empty arrays
         if (source.json[key].empty() || (std::string_view(key) == "buffers" && chunk.empty())) source.json.erase(key);
     return chunk;
 }
 
-/// The source as one GLB; as it is, if it is one that names no files.
+/// The source as one GLB; unchanged if it is a GLB that names no files.
 Bytes packed_glb(cook::Context& context, GltfSource source) {
     const auto names_file = [&](const char* key) {
         const nlohmann::json& array = source.json.value(key, nlohmann::json::array());
@@ -108,7 +108,7 @@ Bytes packed_glb(cook::Context& context, GltfSource source) {
     return glb;
 }
 
-/// The tables of a scene's extensions, each stored once.
+/// The tables of a scene's extensions, equal ones stored once.
 struct SceneTables {
     struct Use {
         std::size_t material;
@@ -123,7 +123,7 @@ std::string pointer_of(std::size_t material, const std::string& extension) {
     return fmt::format("/materials/{}/extensions/{}", material, extension);
 }
 
-/// Calls `visit` for each extension of a material that is registered.
+/// Calls visit(index of the material, extension, its JSON object) for each registered extension of each material.
 template <typename Visit>
 void for_each_extension(const ImportedScene& scene, std::span<const cook::GltfExtension> extensions,
                         const Visit& visit) {
@@ -155,7 +155,7 @@ SceneTables cook_tables(cook::Context& context, const ImportedScene& scene,
     return cooked;
 }
 
-/// The payloads of a scene's probes, those of a file stored once.
+/// The payloads of a scene's probes, that of each file stored once.
 struct SceneProbes {
     struct Use {
         std::size_t probe;
@@ -165,7 +165,7 @@ struct SceneProbes {
     std::vector<Use> uses;
 };
 
-/// A file that is not there is left out, so that a scene can be drawn to capture its probes.
+/// Skips missing files with a warning, so that a scene can be drawn to capture its probes.
 SceneProbes read_probes(cook::Context& context, const ImportedScene& scene, const cook::AssetType* type) {
     SceneProbes read;
     std::map<std::filesystem::path, std::size_t> known;
@@ -183,7 +183,7 @@ SceneProbes read_probes(cook::Context& context, const ImportedScene& scene, cons
             asset::CookedAsset cooked = asset::unpack(context.read(path, kMaximumHashedBytes), path.string());
             ROWLAND_CHECK(type != nullptr, "a scene with probes needs the asset type of probes");
             asset::check_type(cooked.header, kProbeAssetType, type->version, path.string());
-            type->describe(cooked.payload, path.string());
+            type->describe(cooked.payload, path.string());  // throws if the payload is damaged
             found = known.emplace(path, read.payloads.size()).first;
             read.payloads.push_back(std::move(cooked.payload));
         }
@@ -265,8 +265,8 @@ std::string describe_scene(const ImportedScene& scene, const std::string& file,
             const std::string pointer = pointer_of(i, extension.name);
             text += fmt::format("\nmaterial: {} \"{}\"\nextension: {}\n", i, scene.materials[i].name, extension.name);
             const auto tables = scene.materials[i].tables.find(extension.name);
-            if (tables ==
-                scene.materials[i].tables.end())  // only a source has the files that an object names beside it
+            // With tables the object is not described: files that it names may be beside the source only.
+            if (tables == scene.materials[i].tables.end())
                 text += fmt::format("object: {}\n", extension.describe(object, file, pointer));
             else
                 text += fmt::format("bytes: {}\n{}", tables->second->size(),

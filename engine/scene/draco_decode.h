@@ -15,10 +15,10 @@
 
 namespace rowland::scene {
 
-/// Limits for a small stream; large streams get more in proportion to their size. Enough for anything small on a busy
-/// machine, and for the tables of 2 million triangles.
+/// Limits for small streams; large streams raise them in proportion to their size. The defaults are enough for any
+/// small stream on a busy machine, and the memory for the decoder's tables of 2 million triangles.
 struct DracoLimits {
-    std::chrono::steady_clock::duration time = std::chrono::seconds(3);  ///< for a file; each stream adds to it
+    std::chrono::steady_clock::duration time = std::chrono::seconds(3);  ///< for a whole file; each stream adds to it
     std::uint64_t memory = 448ULL << 20;                                 ///< bytes of address space, with the libraries
 };
 
@@ -27,8 +27,8 @@ struct DracoRefusal : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/// Draco's decoder in a process of its own, started at the first stream, so that a stream that makes it crash, hang or
-/// take gigabytes costs a refusal and nothing else. All streams of a file use one process and its time.
+/// Draco's decoder in a process of its own, started at the first stream: a stream that makes it crash, hang or take
+/// gigabytes is refused and does no other harm. All streams of a file use one process and its time.
 class DracoProcess {
  public:
     struct Decoded {
@@ -66,7 +66,7 @@ class DracoProcess {
 };
 
 /// A triangle mesh decoded from a Draco stream that may be hostile. The decoder runs in a process of its own with
-/// limits of memory and time; the sizes it returns are spent from the memory budget before anything is allocated here,
+/// limits of memory and time; the sizes it returns are charged to the memory budget before anything is allocated here,
 /// and every index is checked.
 class DracoMesh {
  public:

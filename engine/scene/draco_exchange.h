@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <string_view>
 
-// The messages between the importer and its Draco helper, as they lie in memory: both are of one build. This header
-// needs nothing of the library, so that the helper links the decoder only.
+// The messages between the importer and its Draco helper, sent as they lie in memory, since both programs are of one
+// build. This header needs nothing of the library, so that the helper links the decoder only.
 namespace rowland::scene {
 
 constexpr std::string_view kDracoHelper = "rowland-decode-draco";

@@ -188,7 +188,7 @@ std::size_t EditableGltf::own_material(PrimitiveId primitive) {
     return added;
 }
 
-/// As Blender does: "gold" becomes "gold.001".
+/// Names the copy as Blender does: "gold" becomes "gold.001".
 void EditableGltf::rename_copy(OrderedJson& copy, const std::string& original) {
     if (original.empty()) return;
     std::string name;
@@ -197,7 +197,7 @@ void EditableGltf::rename_copy(OrderedJson& copy, const std::string& original) {
     copy["name"] = name;
 }
 
-/// The index of an object in an array of the root, which gets it if it does not have it.
+/// The index of an object in an array of the root, to which it is added if it is missing.
 std::size_t EditableGltf::index_of(const char* name, const OrderedJson& object) {
     const OrderedJson& all = array(name);
     const auto index = static_cast<std::size_t>(std::ranges::find(all, object) - all.begin());
@@ -228,7 +228,7 @@ bool EditableGltf::file_holds(const std::string& uri, std::span<const std::byte>
 std::optional<std::size_t> EditableGltf::find_image(std::span<const std::byte> image) const {
     const OrderedJson& images = array("images");
     const OrderedJson& views = array("bufferViews");
-    // A view of the binary chunk, as opened or as appended.
+    // Whether a view into the opened or the appended part of the binary chunk holds the image.
     const auto view_holds = [&](const OrderedJson& view) {
         auto begin = view.value("byteOffset", std::size_t{0});
         const bool in_appended = begin >= opened_->binary_size;

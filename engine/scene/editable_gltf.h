@@ -30,13 +30,13 @@ struct GltfOutline {
     std::size_t uses(std::size_t material) const;
 };
 
-/// A .gltf or .glb whose materials are edited. All that an edit does not name keeps its value, and members keep their
-/// order, with extras, extensions that we do not know and the other chunks of a GLB: the document is the file's JSON,
-/// as tinygltf's writer would lose some of these. Files that it names are not read.
+/// A .gltf or .glb whose materials are edited. Everything that an edit does not name is kept: the order of members,
+/// extras, unknown extensions and the other chunks of a GLB. For this the document is held as the file's JSON, since
+/// tinygltf's writer would lose some of these. Files that it names are not read.
 ///
-/// Copies share the JSON until one is edited, the binary chunk, and what is known of the file on disk: undo and redo
-/// keep copies from before and after each edit. Indices of materials, meshes and textures that are out of range are
-/// logic errors.
+/// Undo and redo keep copies from before and after each edit. Copies share the binary chunk, what is known of the file
+/// on disk and, until one of them is edited, the JSON. Indices of materials, meshes and textures that are out of range
+/// are logic errors.
 class EditableGltf {
  public:
     enum class IfChanged { Refuse, Overwrite };
@@ -53,29 +53,32 @@ class EditableGltf {
     /// A member of a material's "extensions"; null if the material does not have it.
     nlohmann::ordered_json material_extension(std::size_t material, const std::string& extension) const;
     /// Sets it, or removes it if `value` is null. Members of an object that are there already keep their position.
-    /// Keeps "extensionsUsed" complete, with the extensions inside of `value`, and free of what is no longer used.
+    /// Adds the extension and those inside of `value` to "extensionsUsed", and removes those that are no longer used
+    /// from it and from "extensionsRequired".
     void set_material_extension(std::size_t material, const std::string& extension,
                                 const nlohmann::ordered_json& value);
 
-    /// The material of a primitive for it alone: the one that it has, if nothing else uses it, else a copy of it under
-    /// a name of its own, else (if it has none) a new one. Returns its index.
+    /// Gives a primitive a material that no other primitive uses: the one that it has, if that is so already, else a
+    /// renamed copy of it, or a new one if it has none. Returns the material's index.
     std::size_t own_material(PrimitiveId primitive);
 
-    /// The index of a texture that shows a PNG or a JPEG through a sampler, a glTF object (null: none): one that is
-    /// there already, or a new one. A GLB takes the image into its binary chunk. Otherwise it becomes a file beside the
-    /// glTF, called as `name` or, if that is taken by other content, with a number after it; save() writes it. Throws
-    /// Error (input) if the image cannot be drawn.
+    /// The index of a texture of a PNG or JPEG with a sampler, a glTF object (null: none); it is added if there is no
+    /// such texture. A GLB stores the image in its binary chunk, unless its first buffer is a file. Otherwise save()
+    /// writes the image to a file beside the glTF, called `name`, with a number after it if a file with other content
+    /// has that name. Throws Error (input) if the image's header is not that of a PNG or JPEG within the limits.
     std::size_t add_texture(std::vector<std::byte> image, const std::string& name,
                             const nlohmann::ordered_json& sampler = nullptr);
 
-    /// The file as save() writes it: a .gltf in lines if it was so, a .glb without spaces.
+    /// The file as save() writes it: a .gltf with line breaks if it had any, a .glb without spaces.
     std::vector<std::byte> bytes() const;
 
     /// Whether path() holds something else than what was opened from it or last saved to it.
     bool changed_on_disk() const;
     /// Writes the images that were added as files, then replaces the file. Links are followed. Throws Error
-    /// - (system) if path() changed_on_disk() and that is refused, or if writing fails; the old file stays,
-    /// - (input) if `path` is in another folder and the glTF names files, which would not be found there.
+    /// - (system) if `path` is path(), changed_on_disk() and `if_changed` is Refuse, or if writing fails; the old file
+    ///   stays,
+    /// - (input) if `path` is in another folder and the glTF names files, which would not be found there, or if a file
+    ///   with the name of an added image has other content.
     void save(const std::filesystem::path& path, IfChanged if_changed = IfChanged::Refuse);
     void save() { save(path()); }
 
@@ -94,7 +97,7 @@ class EditableGltf {
     };
     using OrderedJson = nlohmann::ordered_json;
 
-    /// The JSON to be edited: the copies' no more.
+    /// The JSON for editing, from now on not shared with copies.
     OrderedJson& edit();
     const OrderedJson& array(const char* name) const;  ///< of the root; empty if it is missing
     void rename_copy(OrderedJson& copy, const std::string& original);
@@ -109,13 +112,13 @@ class EditableGltf {
     std::string add_file(std::vector<std::byte> image, const std::string& name);
     void require_files_beside(const std::filesystem::path& target) const;
     void write_added_files(const std::filesystem::path& folder) const;
-    /// The file; `owned` gets what the parts need besides this object.
+    /// The bytes of the file as consecutive parts; `owned` receives those that this object does not hold.
     std::vector<std::span<const std::byte>> parts(std::vector<std::byte>& owned) const;
 
     std::shared_ptr<OnDisk> on_disk_;  ///< shared by all copies
     std::shared_ptr<OrderedJson> json_;
     GltfOutline outline_;
-    bool in_lines_ = false;                                   ///< the JSON text
+    bool in_lines_ = false;                                   ///< the JSON text has line breaks
     std::shared_ptr<const GltfSource> opened_;                ///< without its JSON
     std::shared_ptr<const std::vector<std::byte>> appended_;  ///< to the BIN chunk; null: nothing
     std::vector<AddedFile> added_files_;

@@ -8,8 +8,8 @@
 
 namespace rowland::scene {
 
-/// Quantisation of a written mesh, bits a component. Draco stores a component as one of 2^bits steps over the
-/// attribute's largest extent, so its error is half of extent / (2^bits − 1): 0.9 µm on a 12 cm disc, and 1.5e-5 a
+/// Quantisation of a written mesh, bits per component. Draco stores a component as one of 2^bits steps over the
+/// attribute's largest extent, so its error is half of extent / (2^bits − 1): 0.9 µm on a 12 cm disc, and 1.5e-5 per
 /// component for tangents, which rotates a tangent by at most 2.7e-5 rad. Normals are stored octahedrally, with an
 /// error of at most √18 / (2^bits − 2), 6.5e-5.
 inline constexpr int kDracoBits = 16;
@@ -28,7 +28,7 @@ struct DracoStream {
 };
 
 /// Encodes positions, normals, tangents and uvs sequentially: every vertex and triangle keeps its index. Deterministic.
-/// Throws Error (system) if Draco fails.
+/// The mesh must have triangles and no more vertices than indices. Throws Error (system) if Draco fails.
 DracoStream encode_draco(const Mesh& mesh);
 
 /// A binary glTF 2.0 file of one mesh at one node, both called `name`: positions, normals, tangents and uvs,

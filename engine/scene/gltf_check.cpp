@@ -22,7 +22,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-// Quantised attributes are ordinary accessors to us, so that extension needs nothing more.
+// KHR_mesh_quantization needs no code of its own: quantised attributes are read as any other accessor.
 constexpr std::array<std::string_view, 9> kSupportedExtensions = {
     kDracoExtension,       kLightExtension,         "KHR_materials_clearcoat",  "KHR_materials_emissive_strength",
     "KHR_materials_unlit", "KHR_mesh_quantization", kTextureTransformExtension, kWearExtension,
@@ -41,8 +41,8 @@ struct Member {
     std::size_t count = 0;                      ///< Numbers: how many; Objects: bytes that each takes once parsed
     std::span<const std::int64_t> codes{};      ///< Code: the allowed integers
     std::span<const std::string_view> words{};  ///< Word: the allowed texts
-    const char* target = nullptr;               ///< Index, Indices, Map: array that the index is of, a JSON pointer;
-                                                ///< "samplers": of the object around the one with the member
+    const char* target = nullptr;               ///< Index, Indices, Map: JSON pointer of the indexed array;
+                                                ///< "samplers": a member of the object that encloses the owner
     std::span<const Member> members{};          ///< Object, Objects
 
     constexpr Member operator!() const {
@@ -94,14 +94,14 @@ constexpr Member map(const char* key, const char* target) {
 constexpr std::int64_t kMaximumBytes = std::numeric_limits<std::uint32_t>::max();
 constexpr std::int64_t kMaximumCount = std::numeric_limits<std::int32_t>::max();
 constexpr std::int64_t kMaximumUvSet = 1 << 20;
-// Exporters round: what is a little over 1 is clamped.
+// Exporters round, so factors may be a little over 1; the import clamps them.
 constexpr NumberRange kFactor{.minimum = 0.0, .maximum = 1.001};
 constexpr NumberRange kWearSize{.minimum = 0.005, .maximum = 2.0};
 constexpr NumberRange kUnit{.minimum = -1.001, .maximum = 1.001};
 // Far above any real light; the product of two stays finite.
 constexpr NumberRange kEmission{.minimum = 0.0, .maximum = 1e6};
 constexpr NumberRange kNotNegative{.minimum = 0.0, .maximum = std::numeric_limits<float>::max()};
-// The sun has 1e5 lux; a light of more than a million suns is a mistake.
+// The sun has 1e5 lux; a light of more than ten million suns is a mistake.
 constexpr NumberRange kIntensity{.minimum = 0.0, .maximum = 1e12};
 constexpr NumberRange kLightRange{.minimum = 0.0, .maximum = 1e12, .exclusive_minimum = true};
 // Of a probe's box, in metres.
@@ -243,7 +243,7 @@ constexpr std::array kRoot = {!object("asset", kAsset),
                               index("scene", "/scenes"),
                               objects("animations", kAnimation, sizeof(gltf::Animation))};
 
-/// Checks objects against their members and copies these.
+/// Checks objects against lists of members and copies those members only.
 class Check {
  public:
     Check(const Json& root, MemoryBudget& budget) : root_(root), budget_(budget) {}
@@ -352,7 +352,7 @@ class Check {
 
     const Json& root_;
     MemoryBudget& budget_;
-    std::map<std::string_view, std::size_t> sizes_;  ///< of the root's arrays that indices are of
+    std::map<std::string_view, std::size_t> sizes_;  ///< of the arrays that indices refer to, by JSON pointer
 };
 
 struct Version {
@@ -395,7 +395,7 @@ void check_extensions(JsonReader& root, std::span<const std::string> handled, st
         if (!supports(name)) warn_once(warnings, fmt::format("the extension {:.80} is ignored", name));
 }
 
-/// Members that depend on each other.
+/// Checks members that depend on each other.
 void check_relations(const Json& checked, const std::string& file, std::vector<std::string>& warnings) {
     const auto each = [&](const char* array, const auto& check) {
         const Json::json_pointer at(array);
@@ -424,7 +424,7 @@ void check_relations(const Json& checked, const std::string& file, std::vector<s
         if (camera["type"] != "perspective") return warn_once(warnings, "orthographic cameras are ignored");
         if (!camera.contains("perspective")) refuse_input(file, pointer + "/perspective", "nothing", "an object");
         const Json& lens = camera["perspective"];
-        // As floats, to which both are rounded.
+        // Compared as floats, since the import rounds both.
         const auto near = lens["znear"].get<float>();
         if (lens.contains("zfar") && !(lens["zfar"].get<float>() > near))
             refuse_input(file, pointer + "/perspective/zfar", fmt::format("{}", lens["zfar"].get<double>()),

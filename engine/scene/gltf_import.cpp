@@ -24,7 +24,7 @@ TangentSource tangent_source(const gltf::Primitive& primitive) {
     return has_attribute(primitive, "TEXCOORD_0") ? TangentSource::Uvs : TangentSource::Arbitrary;
 }
 
-/// Imports every triangle primitive; returns those of each glTF mesh.
+/// Imports every triangle primitive; returns the primitives of each glTF mesh.
 std::vector<std::vector<TrianglePrimitive>> import_meshes(const GltfDocument& document, MemoryBudget& budget,
                                                           ImportedScene& scene) {
     const std::vector<gltf::Mesh>& meshes = document.model.meshes;
@@ -126,10 +126,10 @@ ImportedScene import_gltf(const GltfSource& source, std::span<const std::string>
     const ShownNodes shown = import_nodes(document, budget, scene);
     const auto meshes = import_meshes(document, budget, scene);
     InstanceImport instances(document, shown, budget, scene);
-    std::vector<std::size_t> in_order(scene.nodes.size());
+    std::vector<std::size_t> document_nodes(scene.nodes.size());
     for (std::size_t i = 0; i < shown.size(); ++i)
-        if (shown[i]) in_order[*shown[i]] = i;
-    for (const std::size_t node : in_order) instances.add(node, meshes);
+        if (shown[i]) document_nodes[*shown[i]] = i;
+    for (const std::size_t node : document_nodes) instances.add(node, meshes);
     scene.animations = import_animations(document, shown, budget);
     import_images(source, document, budget, read_files, scene);
     return scene;

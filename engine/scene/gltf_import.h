@@ -18,19 +18,19 @@ namespace rowland::scene {
 ImportedScene load_gltf(const std::filesystem::path& path, std::span<const std::string> handled_extensions = {},
                         std::vector<std::filesystem::path>* read_files = nullptr);
 
-/// The same for a file that was split.
+/// The same for what split_gltf() returned.
 ImportedScene import_gltf(const GltfSource& source, std::span<const std::string> handled_extensions,
                           std::vector<std::filesystem::path>* read_files);
 /// The same for the bytes of a self-contained file; `file` is its name for messages.
 ImportedScene load_glb(std::span<const std::byte> bytes, const std::string& file,
                        std::span<const std::string> handled_extensions = {});
 
-/// Replaces every skin by the mesh that it poses at rest, at a node of its own at the origin.
+/// Replaces every skinned instance by its mesh in the rest pose, at a new node at the origin, and removes the skins.
 void pose_skins_at_rest(ImportedScene& scene);
 
 /// All triangles of a scene in world space as one mesh, for previews with one material: positions, normals, tangents
 /// and first UVs. Skins are in their rest pose, and mirrored instances keep their winding. Throws Error (input) if the
-/// result is unreasonably large.
+/// result takes more than MemoryBudget::scene_limit(), or if a vertex leaves the range of floats.
 Mesh merge_instances(const ImportedScene& scene);
 
 }  // namespace rowland::scene

@@ -19,7 +19,7 @@ double number_or(const gltf::Value& object, const std::string& key, double fallb
 
 namespace {
 
-// Decoded images have a budget of their own: a dozen of 4096 × 4096 texels.
+// Decoded images have a budget of their own: 16 images of 4096 × 4096 texels.
 constexpr std::uint64_t kMaximumPictureBytes = std::uint64_t{1} << 30;
 
 glm::vec2 vec2_or(const gltf::Value& object, const std::string& key, const glm::vec2& fallback) {
@@ -28,13 +28,13 @@ glm::vec2 vec2_or(const gltf::Value& object, const std::string& key, const glm::
     return {array.Get(0).GetNumberAsDouble(), array.Get(1).GetNumberAsDouble()};
 }
 
-/// What is a little over 1 was rounded by the exporter.
+/// Clamps a factor that an exporter rounded to a little over 1.
 float factor(double x) {
     return static_cast<float>(std::min(x, 1.0));
 }
 
-/// A material's texture, with KHR_texture_transform. nullopt if it is missing, or if it has no image that we read or,
-/// with a warning, uses a set of texture coordinates above the second.
+/// A material's texture, with KHR_texture_transform. nullopt if the material has none, if the texture has no image that
+/// we read or, with a warning, if it uses a third or later set of texture coordinates.
 template <typename Info>
 std::optional<TextureUse> texture_use(const gltf::Model& model, const Info& info, std::vector<std::string>& warnings) {
     if (info.index < 0) return std::nullopt;
@@ -100,7 +100,7 @@ MaterialDescription import_material(const gltf::Model& model, const gltf::Materi
     return to;
 }
 
-/// The extensions that are left to their registered handlers, as JSON.
+/// Keeps the extensions that are left to their registered handlers as JSON.
 void keep_other_extensions(const nlohmann::json& material, MaterialDescription& to,
                            std::vector<std::string>& warnings) {
     if (!material.contains("extensions")) return;
@@ -138,7 +138,7 @@ struct Encoded {
     GltfBuffer bytes;
 };
 
-/// Calls `read` and adds the file and the image to what it throws.
+/// Calls `read` and adds the file and the image to the Error that it throws.
 template <typename Read>
 auto read_at(const std::string& file, std::size_t image, const Read& read) {
     try {
@@ -165,7 +165,8 @@ void check_decoded_total(const std::vector<Encoded>& encoded, const std::string&
                      fmt::format("at most {}", limit), "scale the images down");
 }
 
-/// The images that a texture names, their bytes fetched and the memory they take once decoded spent.
+/// Fetches the bytes of the images that a texture names. Throws Error (input) if they would take too much memory once
+/// decoded.
 std::vector<Encoded> fetch(const GltfSource& source, const GltfDocument& document, MemoryBudget& budget,
                            std::vector<std::filesystem::path>* read_files) {
     const gltf::Model& model = document.model;
@@ -193,7 +194,7 @@ std::vector<Encoded> fetch(const GltfSource& source, const GltfDocument& documen
 
 /// Decodes each into its element of `images`, on all cores.
 void decode(const std::vector<Encoded>& encoded, const std::string& file, std::vector<SharedImage>& images) {
-    // The first broken image is named, whichever thread finishes first.
+    // The error names the first broken image of the file, whichever thread finishes first.
     std::vector<std::exception_ptr> refusals(encoded.size());
     parallel_for(encoded.size(), [&](std::size_t i) {
         try {

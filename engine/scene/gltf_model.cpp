@@ -16,9 +16,9 @@ namespace rowland::scene {
 
 namespace {
 
-/// Parses what check_gltf() returned. tinygltf gets no buffers and images, which load_uri() reads, and an accessor
-/// without a buffer view gets one that is there for this call only: tinygltf takes indices in a Draco stream for an
-/// error.
+/// Parses what check_gltf() returned. tinygltf gets neither buffers nor images, which load_uri() reads. An accessor
+/// without a buffer view gets a temporary one, since tinygltf refuses indices without a view, which primitives with a
+/// Draco stream have.
 gltf::Model parse_model(nlohmann::json checked, const std::string& file) {
     nlohmann::json images = checked.value("images", nlohmann::json::array());
     for (const char* array : {"buffers", "images"}) checked.erase(array);
@@ -50,7 +50,8 @@ gltf::Model parse_model(nlohmann::json checked, const std::string& file) {
     return model;
 }
 
-/// What the buffers' URIs name, or the BIN chunk. A buffer holds its byteLength, or nothing if no buffer view uses it.
+/// The data of the buffers, from their URIs or the BIN chunk. A buffer holds byteLength bytes, or none if it has no
+/// data and no buffer view uses it.
 std::vector<GltfBuffer> load_buffers(const GltfSource& source, const nlohmann::json& entries, const gltf::Model& model,
                                      MemoryBudget& budget, std::vector<std::filesystem::path>* read_files) {
     std::vector<GltfBuffer> buffers;
@@ -63,7 +64,6 @@ std::vector<GltfBuffer> load_buffers(const GltfSource& source, const nlohmann::j
         else if (index == 0)
             buffer.bytes = source.binary();
         const auto length = entry["byteLength"].get<std::size_t>();
-        // A buffer without data may stand in the file if nothing uses it.
         if (buffer.bytes.empty() && std::ranges::find(model.bufferViews, static_cast<int>(index),
                                                       &gltf::BufferView::buffer) == model.bufferViews.end())
             continue;
@@ -80,7 +80,7 @@ std::size_t component_size(int component_type) {
     return static_cast<std::size_t>(gltf::GetComponentSizeInBytes(static_cast<std::uint32_t>(component_type)));
 }
 
-/// Components of a column of an accessor's type.
+/// Components in a column of an accessor's type.
 int rows_of(int type) {
     return type == TINYGLTF_TYPE_SCALAR ? 1 : type % 32;
 }
@@ -165,14 +165,14 @@ void for_each_element(const GltfDocument& document, int index, const Visit& visi
     }
     if (!accessor.sparse.isSparse) return;
     const auto& sparse = accessor.sparse;
-    const auto positions =
+    const auto indices =
         document.view_bytes(sparse.indices.bufferView).subspan(static_cast<std::size_t>(sparse.indices.byteOffset));
     const auto values =
         document.view_bytes(sparse.values.bufferView).subspan(static_cast<std::size_t>(sparse.values.byteOffset));
     const std::size_t index_size = component_size(sparse.indices.componentType);
     for (std::size_t i = 0; i < static_cast<std::size_t>(sparse.count); ++i) {
         std::uint32_t target = 0;  // little-endian, as all of glTF
-        std::memcpy(&target, positions.subspan(i * index_size, index_size).data(), index_size);
+        std::memcpy(&target, indices.subspan(i * index_size, index_size).data(), index_size);
         if (target >= accessor.count)
             refuse_input(document.file, pointer_of(index), fmt::format("sparse index {}", target),
                          fmt::format("below the count, {}", accessor.count));

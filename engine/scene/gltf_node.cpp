@@ -17,7 +17,7 @@ namespace rowland::scene {
 
 namespace {
 
-/// Memory of a JSON value per character of its text, at most: a map node for {"a":0}.
+/// Upper bound of the memory of a parsed JSON value, bytes per character of its text; {"a":0} takes a map node.
 constexpr std::size_t kJsonBytesPerCharacter = 20;
 
 template <typename Vector>
@@ -28,7 +28,7 @@ Vector vector_or(const std::vector<double>& numbers, const Vector& fallback) {
     return vector;
 }
 
-/// A node's matrix, and the transform that it is without its shear.
+/// A node's matrix, and the translation, rotation and scale that it has without its shear.
 struct LocalTransform {
     glm::dmat4 matrix{1.0};
     Transform parts;
@@ -79,27 +79,27 @@ std::vector<int> root_nodes(const gltf::Model& model) {
 }
 
 /// A light's size, which glTF lacks: a number in its node's extras.
-float size_of(const nlohmann::json& extras, const GltfDocument& document, const std::string& node, const char* key,
-              double otherwise, double largest) {
-    if (!extras.is_object()) return static_cast<float>(otherwise);
-    JsonReader reader(extras, document.file, node + "/extras");
-    return static_cast<float>(reader.number_or(key, otherwise, {.minimum = 0.0, .maximum = largest}));
+float size_of(const nlohmann::json& extras, const GltfDocument& document, const std::string& pointer, const char* key,
+              double fallback, double largest) {
+    if (!extras.is_object()) return static_cast<float>(fallback);
+    JsonReader reader(extras, document.file, pointer + "/extras");
+    return static_cast<float>(reader.number_or(key, fallback, {.minimum = 0.0, .maximum = largest}));
 }
 
 std::variant<DirectionalLight, PunctualLight> light_of(const gltf::Light& from, const nlohmann::json& extras,
-                                                       const GltfDocument& document, const std::string& node) {
+                                                       const GltfDocument& document, const std::string& pointer) {
     const glm::vec3 strength(vector_or(from.color, glm::dvec3(1.0)) * from.intensity);
-    // Along the node's −Z.
+    // The light shines along the node's −Z, so +Z is the direction toward it.
     if (from.type == "directional") {
         const float diameter_deg =
-            size_of(extras, document, node, "light_angle", glm::degrees(2.0 * kSunAngularRadius), 90.0);
+            size_of(extras, document, pointer, "light_angle", glm::degrees(2.0 * kSunAngularRadius), 90.0);
         return DirectionalLight{.direction = {0.0F, 0.0F, 1.0F},
                                 .irradiance = strength,
                                 .angular_radius = 0.5F * glm::radians(diameter_deg),
                                 .casts_shadow = is_marked(extras, "casts_shadow")};
     }
     PunctualLight light{.intensity = strength,
-                        .radius_m = size_of(extras, document, node, "light_radius", kBulbRadius_m, 1000.0),
+                        .radius_m = size_of(extras, document, pointer, "light_radius", kBulbRadius_m, 1000.0),
                         .range_m = static_cast<float>(from.range),
                         .spot = from.type == "spot"};
     if (!light.spot) return light;
@@ -132,7 +132,7 @@ ImportedProbe probe_of(const gltf::Value& from, std::size_t node, const std::str
 struct PendingNode {
     int node = 0;
     std::optional<std::size_t> parent;
-    glm::dmat4 above{1.0};
+    glm::dmat4 above{1.0};  ///< the parent's world matrix
 };
 
 class NodeImport {
@@ -202,7 +202,7 @@ class NodeImport {
     ShownNodes shown_;
 };
 
-/// The matrix with the bottom row of an affine one. Throws if it is not finite.
+/// `matrix` with the bottom row of an affine matrix. Throws if another element is not finite.
 glm::mat4 checked_bind(glm::mat4 matrix, const std::string& file, const std::string& pointer) {
     for (int column = 0; column < 4; ++column) {
         for (int row = 0; row < 3; ++row)
@@ -224,7 +224,7 @@ std::optional<AnimatedProperty> property_of(const std::string& path) {
 struct ChannelImport {
     const GltfDocument& document;
     const gltf::AnimationSampler& sampler;
-    const std::string& pointer;  ///< JSON pointer
+    const std::string& pointer;  ///< JSON pointer of the sampler
     MemoryBudget& budget;
 
     [[noreturn]] void fail(std::string found, std::string expected) const {
@@ -239,7 +239,7 @@ struct ChannelImport {
         return times;
     }
 
-    /// Rotations may be normalised integers, the rest is floats (glTF 2.0, 3.11).
+    /// Rotations may be normalised integers; the other properties are floats (glTF 2.0, 3.11).
     void check_type(AnimatedProperty property) const {
         const gltf::Accessor& output = document.model.accessors[static_cast<std::size_t>(sampler.output)];
         const bool is_rotation = property == AnimatedProperty::Rotation;

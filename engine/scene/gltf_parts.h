@@ -16,8 +16,8 @@
 #include "engine/scene/imported_scene.h"
 #include "engine/scene/tinygltf.h"
 
-// The parts of a checked glTF file as the parts of an ImportedScene. All throw Error (input) with the JSON pointer;
-// what they ignore or repair is added to the scene's warnings.
+// Functions that make the parts of an ImportedScene from those of a checked glTF file. All throw Error (input) with the
+// JSON pointer; the scene's warnings say what they ignored or repaired.
 namespace rowland::scene {
 
 // gltf_model.cpp: the file and its accessors.
@@ -27,7 +27,7 @@ namespace rowland::scene {
 struct GltfDocument {
     std::string file;            ///< for messages
     const nlohmann::json& json;  ///< the source's, with extras and all extensions
-    gltf::Model model;           ///< without the buffers, and with the members that we read only
+    gltf::Model model;           ///< without the buffers, and only with the members that we read
     std::vector<GltfBuffer> buffers;
 
     std::span<const std::byte> view_bytes(int view) const;
@@ -46,14 +46,14 @@ GltfDocument parse_gltf(const GltfSource& source, std::span<const std::string> h
 template <typename Vector>
 std::vector<Vector> read_vectors(const GltfDocument& document, int accessor, MemoryBudget& budget);
 
-/// The same for scalars, and for 4 × 4 matrices of floats.
+/// The same for scalar floats, and for 4 × 4 matrices of floats.
 std::vector<float> read_floats(const GltfDocument& document, int accessor, MemoryBudget& budget);
 std::vector<glm::mat4> read_matrices(const GltfDocument& document, int accessor, MemoryBudget& budget);
 
 /// The elements of an accessor of unsigned integers. Throws Error (input) if it is not one.
 std::vector<std::uint32_t> read_indices(const GltfDocument& document, int accessor, MemoryBudget& budget);
 
-/// gltf_material.cpp: a number of an extension's object.
+/// gltf_material.cpp: a member of an extension's object as a number; `fallback` if it is missing.
 double number_or(const gltf::Value& object, const std::string& key, double fallback);
 /// The materials.
 std::vector<MaterialDescription> import_materials(const GltfDocument& document, std::vector<std::string>& warnings);
@@ -63,9 +63,9 @@ std::vector<MaterialDescription> import_materials(const GltfDocument& document, 
 void import_images(const GltfSource& source, const GltfDocument& document, MemoryBudget& budget,
                    std::vector<std::filesystem::path>* read_files, ImportedScene& scene);
 
-/// gltf_node.cpp: extras that take more characters as text are left out with a warning.
+/// gltf_node.cpp: extras whose JSON text is longer are left out with a warning.
 inline constexpr std::size_t kMostExtrasBytes = 65536;
-/// The scene's node of each of the document's nodes; nullopt: it is not shown.
+/// For each node of the document, its index in the scene; nullopt: it is not shown.
 using ShownNodes = std::vector<std::optional<std::size_t>>;
 /// Adds the nodes of the scene to show, parents before their children, with their lights and cameras. Throws also if a
 /// node is reached twice (a cycle, or two parents) or if a transform overflows.
@@ -76,7 +76,7 @@ ImportedSkin import_skin(const GltfDocument& document, std::size_t skin, const S
 /// number.
 std::vector<Animation> import_animations(const GltfDocument& document, const ShownNodes& shown, MemoryBudget& budget);
 
-/// gltf_primitive.cpp: whether an accessor or a Draco stream has an attribute.
+/// gltf_primitive.cpp: whether a primitive has an attribute, in an accessor or in its Draco stream.
 bool has_attribute(const gltf::Primitive& primitive, const std::string& name);
 /// The mesh of one triangle primitive with positions: strips and fans become lists, indices and positions are checked,
 /// missing or unusable normals and tangents generated. `normal_map_uvs`: which set of UVs the normal map uses, 0 or 1.

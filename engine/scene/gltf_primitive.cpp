@@ -20,7 +20,7 @@ namespace {
 struct PrimitiveImport {
     const GltfDocument& document;
     const gltf::Primitive& primitive;
-    const std::string& pointer;  ///< JSON pointer
+    const std::string& pointer;  ///< JSON pointer of the primitive
     MemoryBudget& budget;
     std::vector<std::string>& warnings;
     const DracoMesh* draco;  ///< null: not compressed
@@ -198,7 +198,7 @@ void read_vertices(const PrimitiveImport& import, Mesh& mesh) {
         if (!is_finite(position)) import.fail("a position that is infinite or not a number", "finite positions");
 }
 
-/// The primitive's vertex indices as stored, each checked to be below `vertex_count`.
+/// The primitive's vertex indices as stored, each checked to be below `vertex_count`; if none are stored, all in order.
 std::vector<std::uint32_t> read_corners(const PrimitiveImport& import, std::size_t vertex_count) {
     std::vector<std::uint32_t> corners;
     if (import.draco) {
@@ -294,7 +294,7 @@ Mesh import_primitive(const GltfDocument& document, const gltf::Primitive& primi
     // A Draco stream holds a list of triangles, whatever the mode says.
     const int mode = import.draco ? TINYGLTF_MODE_TRIANGLES : primitive.mode;
     mesh.indices = triangle_list(import, mode, read_corners(import, mesh.positions.size()));
-    // The steps below add at most normals, tangents and uvs, and hold the tangents' sums temporarily.
+    // The steps below add at most normals, tangents and uvs; the tangents' sums are freed again.
     budget.spend(mesh.positions.size(), sizeof(glm::vec3) + sizeof(glm::vec4) + sizeof(glm::vec2), pointer);
     budget.require_left(mesh.positions.size(), 6 * sizeof(double), pointer);
     finish_uvs(import, mesh);

@@ -17,8 +17,8 @@ namespace rowland::scene {
 
 namespace {
 
-// They bound the memory of the parsed JSON: a value takes 16 bytes, twice that in a growing array, and there is at most
-// one value per comma. A scene of a hundred thousand nodes stays far below both limits.
+// These limits bound the memory of the parsed JSON: a value takes 16 bytes, twice that in a growing array, and there is
+// at most one value per comma. A scene of a hundred thousand nodes stays far below both limits.
 constexpr std::size_t kMaximumJsonBytes = 64U << 20;
 constexpr std::ptrdiff_t kMaximumJsonCommas = 4'000'000;
 
@@ -47,7 +47,7 @@ Chunk read_chunk(ByteReader& reader) {
     return {type, reader.take(length)};
 }
 
-/// Reads the GLB structure (glTF 2.0, 4.4). Bytes after the header's length are padding and ignored.
+/// Reads the GLB structure (glTF 2.0, 4.4). Bytes beyond the length in the header are padding and ignored.
 void split_binary(GltfSource& source) {
     ByteReader header(source.bytes, source.file);
     header.take(kGlbMagic.size());

@@ -24,7 +24,7 @@ class MemoryBudget {
 
     /// Takes `count` elements of `element_bytes`. Throws Error (input) at `pointer` if that is more than is left.
     void spend(std::uint64_t count, std::uint64_t element_bytes, const std::string& pointer);
-    /// The same check for what is freed again before anything else is spent: nothing is taken.
+    /// The same check without taking anything, for memory that is freed again before anything else is spent.
     void require_left(std::uint64_t count, std::uint64_t element_bytes, const std::string& pointer) const;
 
  private:
@@ -47,13 +47,13 @@ struct GltfSource {
     std::size_t json_size = 0;      ///< bytes
     std::size_t binary_offset = 0;  ///< of the BIN chunk's data within `bytes`
     std::size_t binary_size = 0;    ///< 0 if there is none
-    std::size_t glb_size = 0;       ///< bytes that the header of a GLB counts
+    std::size_t glb_size = 0;       ///< total length in the header of a GLB, bytes
 
     bool is_glb() const { return json_offset > 0; }
-    /// Without the zeros that some exporters pad a GLB's chunk with, in place of spaces.
+    /// The text of the JSON, without the zeros with which some exporters pad a GLB's chunk in place of spaces.
     std::span<const std::byte> json_text() const;
     std::span<const std::byte> binary() const { return std::span(bytes).subspan(binary_offset, binary_size); }
-    /// Of a GLB, behind JSON and BIN.
+    /// The chunks of a GLB after JSON and BIN; empty for a .gltf.
     std::span<const std::byte> other_chunks() const {
         const std::size_t begin = binary_offset > 0 ? binary_offset + binary_size : json_offset + json_size;
         return is_glb() ? std::span(bytes).subspan(begin, glb_size - begin) : std::span<const std::byte>();
@@ -64,7 +64,7 @@ struct GltfSource {
 /// it is parsed. Throws Error (input).
 GltfSource split_gltf(std::vector<std::byte> bytes, std::string file, std::optional<std::filesystem::path> folder);
 
-/// Chunks of a GLB have multiples of 4 bytes.
+/// The length of a GLB chunk for `bytes` bytes of data: the next multiple of 4.
 constexpr std::size_t padded_chunk(std::size_t bytes) {
     return (bytes + 3) / 4 * 4;
 }
@@ -75,20 +75,20 @@ constexpr std::size_t padded_chunk(std::size_t bytes) {
 std::vector<std::byte> glb_beginning(std::string json, std::optional<std::size_t> binary_size, std::size_t other_size,
                                      const std::string& file);
 
-/// The path of the file that a URI of `file` names, from the glTF's folder, which it does not leave. `pointer` is the
-/// URI's owner. Throws Error (input).
+/// The path of the file that a URI of the glTF `file` names, relative to the glTF's folder, which it does not leave.
+/// `pointer` is the JSON pointer of the URI's owner. Throws Error (input).
 std::filesystem::path relative_path_of_uri(const std::string& file, const std::string& uri, const std::string& pointer);
 /// The same in the source's folder. Throws Error (input), also for a source without one.
 std::filesystem::path file_of_uri(const GltfSource& source, const std::string& uri, const std::string& pointer);
 
-/// Owned unless it is a part of the file.
+/// The data of a buffer: `bytes` lie in `owned` or in the glTF's own bytes.
 struct GltfBuffer {
     std::vector<std::byte> owned;
     std::span<const std::byte> bytes;
 };
 
 /// The bytes that a URI of the file names: a data URI, or a file in the glTF's folder or below it, nothing else.
-/// `pointer` is the URI's owner. `read_files`, if given, receives the file. Throws Error (input).
+/// `pointer` is that of the URI's owner. `read_files`, if given, receives the file. Throws Error (input).
 GltfBuffer load_uri(const GltfSource& source, const std::string& uri, const std::string& pointer, MemoryBudget& budget,
                     std::vector<std::filesystem::path>* read_files);
 

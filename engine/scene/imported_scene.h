@@ -26,7 +26,7 @@ namespace rowland::scene {
 /// KHR_texture_transform: uv' = offset + rotate(rotation) · (scale · uv).
 struct TextureTransform {
     glm::vec2 offset{0.0F};
-    float rotation = 0.0F;  ///< radians, as the extension turns it
+    float rotation = 0.0F;  ///< radians, in the extension's sense of rotation
     glm::vec2 scale{1.0F};
 };
 
@@ -62,12 +62,12 @@ struct MaterialDescription {
     bool double_sided = false;
     bool unlit = false;                      ///< KHR_materials_unlit
     float clear_coat = 0.0F;                 ///< KHR_materials_clearcoat: its factor, without textures
-    float clear_coat_roughness = 0.0F;       ///< perceptual, likewise
+    float clear_coat_roughness = 0.0F;       ///< perceptual; its factor, without textures
     std::optional<Wear> wear;                ///< ROWLAND_materials_wear
-    std::optional<std::size_t> wear_mask;    ///< texture whose R multiplies it
+    std::optional<std::size_t> wear_mask;    ///< texture whose red channel multiplies the wear
     std::optional<TextureUse> wear_texture;  ///< wear_map(), which the import adds to the textures
     std::map<std::string, nlohmann::json> extensions;
-    /// What GltfExtension::cook baked for extensions, by their names; equal tables are shared. Of cooked scenes only.
+    /// Cooked scenes only: what GltfExtension::cook baked, by the extension's name; equal tables are shared.
     std::map<std::string, std::shared_ptr<const std::vector<std::byte>>> tables;
 };
 
@@ -81,7 +81,7 @@ struct ImportedTexture {
     bool mipmaps = true;
 };
 
-/// A node of the scene that is shown.
+/// A node of the scene to show.
 struct ImportedNode {
     std::string name;
     std::optional<std::size_t> parent;  ///< an earlier node
@@ -105,7 +105,7 @@ struct ImportedSkin {
     std::vector<glm::mat4> inverse_bind;
 };
 
-/// KHR_lights_punctual; shines along its node's −Z. Lux and candela are taken as irradiance, and irradiance at 1 m.
+/// KHR_lights_punctual; shines along its node's −Z. Lux are taken as irradiance, candela as irradiance at 1 m.
 /// Its node's extras state what glTF lacks: `"casts_shadow": true` and `"light_angle"`, the diameter in degrees, of a
 /// directional light; `"light_radius"`, in metres, of the others. Without them it is as large as the sun or a bulb.
 struct ImportedLight {
@@ -125,10 +125,10 @@ struct ImportedCamera {
 /// ROWLAND_light_probe: the light in a box about a node.
 struct ImportedProbe {
     std::size_t node = 0;
-    glm::vec3 size_m{1.0F};      ///< of the box, along the node's axes and times its scale
-    float fade_m = 1.0F;         ///< beyond the box, over which its light gives way to other light
-    std::filesystem::path file;  ///< the cooked probe, from the glTF's folder
-    /// The probe's payload, of cooked scenes only; equal probes are shared. Null: the file was not there.
+    glm::vec3 size_m{1.0F};      ///< of the box along the node's axes, to be multiplied by its scale
+    float fade_m = 1.0F;         ///< distance beyond the box over which its light fades to other light
+    std::filesystem::path file;  ///< the cooked probe, relative to the glTF's folder
+    /// Cooked scenes only: the probe's payload; equal probes are shared. Null: the file was missing.
     std::shared_ptr<const std::vector<std::byte>> cooked = {};
 };
 

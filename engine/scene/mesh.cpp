@@ -24,8 +24,8 @@ struct Sum {
     glm::dvec3 v{0.0};
 };
 
-/// Adds the triangle's dP/du and dP/dv, weighted by its area in UV space times the sign of that area, so that neither
-/// needs a division by an area that may be zero.
+/// Adds the triangle's dP/du and dP/dv, weighted by the magnitude of its area in UV space. The weight cancels the
+/// division by that area, which may be tiny.
 void add_uv_gradient(const Mesh& mesh, std::span<const glm::vec2> uvs, std::size_t first_index,
                      std::vector<Sum>& sums) {
     const std::uint32_t* corner = &mesh.indices[first_index];
@@ -53,7 +53,7 @@ glm::dvec3 perpendicular_part(const glm::dvec3& x, const glm::dvec3& n) {
     const glm::dvec3 direction = x / length;
     const glm::dvec3 part = direction - glm::dot(direction, n) * n;
     const double part_length = glm::length(part);
-    // Within 0.06 degrees of the normal the rest is rounding error, not direction.
+    // Within 0.06 degrees of the normal the remainder is rounding error, not direction.
     return part_length > 1e-3 ? part / part_length : glm::dvec3(0.0);
 }
 
@@ -120,7 +120,8 @@ bool orthonormalise_tangent(glm::vec4& tangent, const glm::vec3& n) {
 void transform_vertex(Mesh& mesh, std::size_t vertex, const glm::mat4& matrix) {
     const glm::dmat4 affine(matrix);
     const glm::dmat3 linear(affine);
-    // The cofactors are det times the inverse transpose, and exist for every matrix. Normals must not take the sign.
+    // The cofactors are det times the inverse transpose, and exist for every matrix. Normals must not
+    // take the sign of det.
     const glm::dmat3 cofactors(glm::cross(linear[1], linear[2]), glm::cross(linear[2], linear[0]),
                                glm::cross(linear[0], linear[1]));
     const double side = glm::dot(cofactors[2], linear[2]) < 0.0 ? -1.0 : 1.0;
@@ -129,9 +130,9 @@ void transform_vertex(Mesh& mesh, std::size_t vertex, const glm::mat4& matrix) {
     const double length = glm::length(normal);
     if (length > 0.0 && std::isfinite(length)) mesh.normals[vertex] = glm::vec3(normal / length);
     glm::vec4& tangent = mesh.tangents[vertex];
-    const glm::dvec3 turned = linear * glm::dvec3(glm::vec3(tangent));
-    const double size = glm::length(turned);
-    tangent = glm::vec4(size > 0.0 ? turned / size : turned, side * tangent.w);
+    const glm::dvec3 transformed = linear * glm::dvec3(glm::vec3(tangent));
+    const double size = glm::length(transformed);
+    tangent = glm::vec4(size > 0.0 ? transformed / size : transformed, side * tangent.w);
     orthonormalise_tangent(tangent, mesh.normals[vertex]);
 }
 

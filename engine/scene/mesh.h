@@ -10,8 +10,8 @@
 
 namespace rowland::scene {
 
-/// Triangle mesh. All vertex arrays have the same length, or are empty where it says so; every index is in range; all
-/// values are finite.
+/// Triangle mesh. All vertex arrays have the same length, or are empty where a comment allows it; every index is in
+/// range; all values are finite.
 struct Mesh {
     std::vector<glm::vec3> positions;  ///< metres
     std::vector<glm::vec3> normals;    ///< unit

@@ -73,8 +73,8 @@ Mesh build(const SphereRecipe& recipe) {
     Mesh mesh;
     const auto add_row = [&](int ring) {
         const auto first = static_cast<std::uint32_t>(mesh.positions.size());
-        const double latitude = static_cast<double>(ring) / recipe.rings;
-        const double polar = std::numbers::pi * (1.0 - latitude);
+        const double v = static_cast<double>(ring) / recipe.rings;
+        const double polar = std::numbers::pi * (1.0 - v);
         const bool is_pole = ring == 0 || ring == recipe.rings;
         const glm::dvec2 outward(is_pole ? 0.0 : std::sin(polar), std::cos(polar));
         const glm::dvec2 at = recipe.radius * outward;
@@ -84,7 +84,7 @@ Mesh build(const SphereRecipe& recipe) {
             add_vertex(mesh, {at.x * c, at.y, -at.x * s},
                        glm::normalize(glm::dvec3(outward.x * c, outward.y, -outward.x * s)),
                        glm::normalize(glm::dvec3(-s, 0.0, -c)),
-                       {static_cast<double>(half_sectors) / (2 * recipe.segments), latitude});
+                       {static_cast<double>(half_sectors) / (2 * recipe.segments), v});
         }
         return first;
     };

@@ -22,16 +22,17 @@ struct TriangleHit {
     float distance = 0.0F;     ///< in lengths of the ray's direction
 };
 
-/// The ray from a camera's eye through a point of a picture of that size; both from the upper left corner, y down.
+/// The ray from a camera's eye through a point of a picture. `point` counts from the upper left corner, y down, in the
+/// unit of `size`.
 Ray ray_through(const Camera& camera, const glm::dvec2& point, const glm::dvec2& size);
 
 /// The intersection with one triangle, `triangle` left 0; nullopt if the ray misses (Möller & Trumbore 1997).
 std::optional<TriangleHit> meet(const Ray& ray, const glm::vec3& a, const glm::vec3& b, const glm::vec3& c);
 
-/// The nearest two-sided triangle at least `nearest_allowed` away; nullopt if the ray misses.
+/// The nearest hit, on either side of a triangle, at a distance of at least `nearest_allowed`; nullopt if none.
 std::optional<TriangleHit> nearest_hit(const Ray& ray, const Mesh& mesh, float nearest_allowed = 0.0F);
 
-/// Whether the ray meets the box (Kay & Kajiya 1986), enlarged a little so that rounding misses no flat one.
+/// Whether the ray meets the box (Kay & Kajiya 1986), enlarged a little so that rounding does not miss flat boxes.
 bool meets(const Ray& ray, const Bounds& box);
 
 /// A vertex attribute at a hit.

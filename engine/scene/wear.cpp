@@ -29,7 +29,7 @@ class Random {
 
     float operator()() { return static_cast<float>(generator_() >> 8U) * 0x1p-24F; }
     float between(float least, float most) { return least + (most - least) * (*this)(); }
-    /// Exponentially distributed of mean 1.
+    /// Exponentially distributed with mean 1.
     float exponential() { return -std::log(1.0F - (*this)()); }
 
  private:
@@ -37,7 +37,7 @@ class Random {
 };
 
 /// The fraction of each texel that marks cover; x: dust, y: grease, zw: scratches, by the cosine and sine of twice
-/// their angle. What leaves one side enters at the other.
+/// their angle. Marks that leave one side enter at the other.
 class Canvas {
  public:
     explicit Canvas(float size_m) : texel_m_(size_m / kWearTexels), texels_(std::size_t{kWearTexels} * kWearTexels) {}
@@ -151,9 +151,9 @@ void draw_dust(float area, float density, Random& random, Canvas& canvas) {
     }
 }
 
-/// A finger's ridges around a core, millimetres. The skin touches in patches, and its outline is an ellipse.
+/// Draws a finger's ridges around a core, lengths in millimetres. The skin touches in patches, within an ellipse.
 void draw_fingerprint(Random& random, Canvas& canvas) {
-    constexpr float kRidge = 0.45F;
+    constexpr float kRidge = 0.45F;  // from one ridge to the next
     const glm::vec2 half(random.between(6.5F, 8.5F), random.between(9.0F, 12.0F));
     const glm::vec2 middle = static_cast<float>(kWearTexels) * glm::vec2(random(), random());
     const glm::vec2 core(random.between(-1.0F, 1.0F), random.between(-2.5F, 0.5F));
@@ -178,7 +178,7 @@ void draw_fingerprint(Random& random, Canvas& canvas) {
             const float touch = glm::clamp(0.75F + 1.2F * patches, 0.0F, 1.0F) * std::min(4.0F * (1.0F - inside), 1.0F);
             const glm::vec2 bent(at.x - core.x + lean * at.y, 0.55F * (at.y - core.y) + 0.04F * at.x * at.x);
             const float ridge = 0.5F + 0.5F * std::cos(2.0F * kPi / kRidge * (glm::length(bent) + 0.25F * patches));
-            // Ridges narrower than two texels are grey.
+            // Ridges closer than two texels become even grey.
             const float seen = glm::clamp(kRidge / (2.0F * texel_mm) - 1.0F, 0.0F, 1.0F);
             glm::vec4& texel = canvas.at(static_cast<int>(middle.x) + column, static_cast<int>(middle.y) + row);
             texel.y += strength * touch * glm::mix(0.5F, ridge * ridge, seen);

@@ -7,8 +7,8 @@
 namespace rowland::scene {
 
 /// Marks of use on a surface, the members of the glTF material extension ROWLAND_materials_wear. The densities go from
-/// 0, none, to 1: 170 000 scratches, 400 fingerprints and 3 million specks of dust per square
-/// metre, which cover 1.3 % of it.
+/// 0, none, to 1: per square metre 170 000 scratches, 400 fingerprints, and 3 million specks of dust and 6 000 fibres,
+/// which together cover 1 % of it.
 struct Wear {
     float scratches = 0.0F;
     float fingerprints = 0.0F;
@@ -21,12 +21,12 @@ struct Wear {
 
 inline constexpr int kWearTexels = 1024;  ///< along each side of wear_map()
 
-/// Draws the marks as coverage, which repeats from 0 to 1 in u and v. R: dust; G: grease; B and A: of scratches times
-/// the cosine and the sine of twice their angle from u to v, 128 + 127 x, so that opposite directions are one and the
-/// mean of directions is no direction. Equal arguments give equal bytes.
+/// Draws the marks as coverage, which repeats from 0 to 1 in u and v. R: dust; G: grease; B and A: that of scratches
+/// times the cosine and the sine of twice their angle from u to v, stored as 128 + 127 x. The doubled angle makes
+/// opposite directions equal, and lets scratches of all directions average to 0. Equal arguments give equal bytes.
 image::ByteImage wear_map(const Wear& wear);
 
-/// Multiplies the coverage by the mask's red channel, bilinear, both from 0 to 1 in u and v.
+/// Multiplies the coverage by the mask's red channel, interpolated bilinearly; both images span 0 to 1 in u and v.
 void mask_wear(const image::ByteImage& mask, image::ByteImage& map);
 
 }  // namespace rowland::scene

@@ -30,7 +30,7 @@ void MessageList::draw(std::span<const Message> all, float right, float bottom, 
     ImGui::SetNextWindowPos({right, bottom}, ImGuiCond_Always, {1.0F, 1.0F});
     ImGui::SetNextWindowSize({width, 0.0F});
     ImGui::SetNextWindowBgAlpha(0.96F);
-    // News let the mouse through to what they cover.
+    // A list of news alone lets the mouse through to what it covers.
     const bool closes = std::ranges::any_of(open, &Message::failure);
     ImGui::Begin("##messages", nullptr,
                  (closes ? ImGuiWindowFlags_None : ImGuiWindowFlags_NoInputs) | ImGuiWindowFlags_NoTitleBar |

@@ -10,7 +10,8 @@
 
 namespace rowland::ui {
 
-/// Which messages the user has not read. News are read after some seconds, failures when the user closes them.
+/// Which messages the user has not read. A failure counts as read when the user closes it; all other messages are news,
+/// which count as read after five seconds.
 class UnreadMessages {
  public:
     using Clock = std::chrono::steady_clock;
@@ -27,7 +28,7 @@ class UnreadMessages {
         Clock::time_point until{};
     };
 
-    std::vector<Shown> shown_;  ///< news, the first to end first
+    std::vector<Shown> shown_;  ///< news that are not read yet, the oldest first
     std::set<std::size_t> closed_;
     std::size_t next_ = 0;  ///< number of the first message that was not seen yet
 };
@@ -36,7 +37,7 @@ class UnreadMessages {
 /// Ui::begin_frame() and Ui::draw().
 class MessageList {
  public:
-    /// `right`, `bottom`: the list's lower right corner; `width`: its greatest.
+    /// `right`, `bottom`: the list's lower right corner; `width`: its greatest width; all in screen coordinates.
     void draw(std::span<const Message> all, float right, float bottom, float width);
     /// The number of messages in the last frame.
     std::size_t shown() const { return shown_; }

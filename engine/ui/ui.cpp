@@ -88,7 +88,7 @@ void InputFeed::feed_mouse(const platform::InputState& input, ImGuiIO& io) {
         io.MouseDown[i] = down_[i];
     }
     seen_ = position;
-    // How ImGui is told that there is no mouse.
+    // ImGui takes this position for "no mouse".
     constexpr float kNowhere = -std::numeric_limits<float>::max();
     const glm::vec2 shown(position);
     io.MousePos = input.focused() ? ImVec2(shown.x, shown.y) : ImVec2(kNowhere, kNowhere);
@@ -96,7 +96,7 @@ void InputFeed::feed_mouse(const platform::InputState& input, ImGuiIO& io) {
 
 namespace {
 
-/// ImGui is told at least this time between frames, as it divides by it.
+/// The shortest time between frames that ImGui is given, since it divides by it.
 constexpr double kShortestFrame_s = 1e-4;
 constexpr float kFontSize = 15.0F;         ///< pixels at scale 1
 constexpr float kBuiltInFontSize = 13.0F;  ///< of ImGui's own font

@@ -58,9 +58,9 @@ class Ui {
 
     /// Whether this frame's mouse is over, or was pressed on, something of the user interface.
     bool wants_mouse() const;
-    /// Whether keys move through controls or are typed into one. Function keys never do.
+    /// Whether keys move through controls or are typed into one. ImGui never uses function keys.
     bool wants_keyboard() const;
-    /// Whether a text field has the keyboard: no key is the program's.
+    /// Whether a text field has the keyboard, so that no key is for the program.
     bool wants_text() const;
 
     /// Draws the frame over what is in `target`, of the frame's framebuffer size, and leaves GL's state as it was

@@ -65,7 +65,7 @@ void write_linear_capture(const gpu::Framebuffer& linear, const std::filesystem:
 
 namespace {
 
-constexpr int kSamples = 4;  ///< a pixel, against jagged edges
+constexpr int kSamples = 4;  ///< per pixel, against aliasing
 
 std::unique_ptr<gpu::ShaderLibrary> make_post_shaders() {
     auto library = std::make_unique<gpu::ShaderLibrary>();
@@ -131,7 +131,7 @@ void Picture::resize(glm::ivec2 size) {
                              gpu::Framebuffer({.width = size.x, .height = size.y, .colours = {gpu::Format::RGBA8}})});
 }
 
-/// Null unless it is needed.
+/// The frame's depth with one sample per pixel; null unless depth of field needs it.
 const gpu::Texture* Picture::resolved_depth() {
     if (!post_settings_.depth_of_field) return nullptr;
     std::optional<gpu::Framebuffer>& depth = targets_->depth;

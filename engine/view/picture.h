@@ -26,12 +26,12 @@ namespace rowland::view {
 /// `path` with the frame's number before the extension if there is more than one frame.
 std::filesystem::path numbered(const std::filesystem::path& path, int frame, int frames);
 
-/// Both write a picture and log where.
-/// A display-encoded framebuffer as PNG. Throws Error (system) if the context is lost.
+/// Writes a display-encoded framebuffer as PNG and logs the path. Throws Error (system) if the context is lost or the
+/// file cannot be written.
 void write_display_capture(const gpu::Framebuffer& display, const std::filesystem::path& path);
 
-/// A scene-linear framebuffer as OpenEXR. Throws Error (system) if a pixel is not finite or the
-/// context is lost.
+/// Writes a scene-linear framebuffer as OpenEXR and logs the path. Throws Error (system) if a pixel is not finite, the
+/// context is lost or the file cannot be written.
 void write_linear_capture(const gpu::Framebuffer& linear, const std::filesystem::path& path);
 
 /// From a world to display values: the renderer with four samples per pixel, and the post stack. The same with and
@@ -42,7 +42,7 @@ class Picture {
     Picture(const post::OcioConfig& config, const std::string& view, glm::ivec2 size);
 
     const glm::dmat3& xyz_to_working() const { return xyz_to_working_; }
-    /// A cut: automatic exposure starts again, as in the first frame.
+    /// Counts as a cut: automatic exposure starts again, as in the first frame.
     void set_probe(const lighting::LightProbe& probe);
     /// Throws Error (input) if the display has no such view.
     void set_view(const post::OcioConfig& config, const std::string& view);
@@ -74,7 +74,7 @@ class Picture {
         gpu::Framebuffer multisampled;
         gpu::Framebuffer linear;
         gpu::Framebuffer encoded;
-        std::optional<gpu::Framebuffer> depth = std::nullopt;  ///< for depth of field
+        std::optional<gpu::Framebuffer> depth = std::nullopt;  ///< one sample per pixel, for depth of field
     };
 
     glm::dmat3 xyz_to_working_;

@@ -28,7 +28,7 @@ using rowland::scene::DracoAttribute;
 using rowland::scene::DracoReply;
 using rowland::scene::DracoRequest;
 
-// From and to the importer. If it has ended, so does this process.
+// receive() and send() exchange bytes with the importer. If it has ended, they end this process.
 void receive(void* data, std::size_t size) {
     if (std::fread(data, 1, size, stdin) != size) std::_Exit(0);
 }
@@ -43,7 +43,7 @@ void send(const std::vector<Value>& values) {
     send(values.data(), values.size() * sizeof(Value));
 }
 
-/// Keeps the hard limit, which an unprivileged process may not raise.
+/// Sets the soft limit only, since an unprivileged process could not raise the hard one again.
 void limit(int resource, rlim_t most) {
     const auto kind = static_cast<__rlimit_resource>(resource);
     rlimit limits{};
@@ -64,7 +64,7 @@ std::unique_ptr<draco::Mesh> decode(const DracoRequest& request) {
     return std::move(result).value();
 }
 
-/// The integer that means 1, if the attribute holds integers that the decoder does not normalise.
+/// The integer that means 1; 1 for floats and for integers that the decoder normalises itself.
 std::uint32_t largest_code(const draco::PointAttribute& attribute) {
     if (attribute.normalized()) return 1;
     switch (attribute.data_type()) {
@@ -136,16 +136,16 @@ class Helper {
             mesh_.reset();
             mesh_ = decode(request);
             const auto list = attributes(*mesh_);
-            agree(list.size());
+            reply_done(list.size());
             send(list);
         } else if (request.ask == DracoAsk::Indices) {
-            agree_and_send(indices(*mesh_));
+            reply_with(indices(*mesh_));
         } else {
-            agree_and_send(values(*mesh_, request));
+            reply_with(values(*mesh_, request));
         }
     }
 
-    void agree(std::size_t attributes) {
+    void reply_done(std::size_t attributes) {
         const DracoReply reply{.done = 1,
                                .points = mesh_->num_points(),
                                .faces = mesh_->num_faces(),
@@ -155,8 +155,8 @@ class Helper {
     }
 
     template <typename Value>
-    void agree_and_send(const std::vector<Value>& list) {
-        agree(0);
+    void reply_with(const std::vector<Value>& list) {
+        reply_done(0);
         send(list);
     }
 
