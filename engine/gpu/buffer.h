@@ -31,10 +31,10 @@ class Fence {
     std::unique_ptr<std::remove_pointer_t<GLsync>, Release> sync_;
 };
 
-/// Offsets of uniform blocks and shader storage in a buffer must be multiples of this: the largest that OpenGL lets a
-/// driver ask for.
+/// Offsets of uniform blocks and shader storage in a buffer must be multiples of this, the largest alignment that
+/// OpenGL allows a driver to require.
 inline constexpr std::size_t kBufferAlignment = 256;
-/// The next such offset, `offset` itself if it is one.
+/// The smallest such offset that is at least `offset`.
 constexpr std::size_t aligned(std::size_t offset) {
     return (offset + kBufferAlignment - 1) / kBufferAlignment * kBufferAlignment;
 }
@@ -44,12 +44,13 @@ constexpr std::size_t aligned(std::size_t offset) {
 class Buffer {
  public:
     Buffer() = default;
+    /// Holds `data`, which must not be empty.
     explicit Buffer(std::span<const std::byte> data);
 
-    /// A buffer that stays mapped, and coherent: GL_MAP_WRITE_BIT or GL_MAP_READ_BIT says what the CPU does. Throws
-    /// Error (system) if there is no memory.
+    /// A buffer of `bytes` > 0 that stays mapped, coherently. `access`: GL_MAP_WRITE_BIT or GL_MAP_READ_BIT, for what
+    /// the CPU does. Throws Error (system) if there is no memory.
     static Buffer mapped(std::size_t bytes, GLbitfield access);
-    /// The memory of such a buffer.
+    /// The memory of a mapped() buffer; a logic error for others.
     std::span<std::byte> mapping() const;
 
     /// A buffer that holds `values` as they lie in memory.
@@ -100,9 +101,9 @@ class StreamBuffer {
     /// Binds all of it to a texture unit, as texels of three floats for a samplerBuffer.
     void bind_texels(unsigned unit) const;
 
-    /// Of the content, bytes.
+    /// Bytes of the content.
     std::size_t size() const { return size_; }
-    /// How often content was written.
+    /// Number of calls of write().
     int writes() const { return writes_; }
 
  private:
@@ -115,9 +116,9 @@ class StreamBuffer {
 
     Buffer buffer_;
     std::span<std::byte> mapped_;
-    std::size_t stride_ = 0;                          ///< of the copies
+    std::size_t stride_ = 0;                          ///< bytes from copy to copy
     std::size_t copy_ = 0;                            ///< the last one written
-    std::array<std::optional<Fence>, kCopies> read_;  ///< after the draws that read a copy
+    std::array<std::optional<Fence>, kCopies> read_;  ///< passed when the draws that read a copy are done
     std::size_t size_ = 0;
     int writes_ = 0;
     mutable Handle<ReleaseTexture> texels_;  ///< made when first bound

@@ -27,7 +27,7 @@ std::string_view text_of(GLsizei length, const GLchar* message) {
     return length < 0 ? std::string_view(message) : std::string_view(message, static_cast<std::size_t>(length));
 }
 
-/// What the thread's contexts have said. The driver calls from the thread that calls it.
+/// The messages logged so far in this thread: the driver calls back from the thread that calls it.
 std::set<std::string, std::less<>>& logged() {
     thread_local std::set<std::string, std::less<>> texts;
     return texts;
@@ -35,7 +35,7 @@ std::set<std::string, std::less<>>& logged() {
 
 void on_message(GLenum source, GLenum type, GLuint id, GLenum severity, GLsizei length, const GLchar* message,
                 const void* fatal) {
-    // What a compiler finds wrong is in the info log, from which Program makes an exception.
+    // The errors of a compiler are also in the info log, from which Program makes an exception.
     if (source == GL_DEBUG_SOURCE_SHADER_COMPILER && type == GL_DEBUG_TYPE_ERROR) return;
     const std::string_view text = text_of(length, message);
     const bool is_new = logged().emplace(text).second;

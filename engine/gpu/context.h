@@ -11,13 +11,13 @@ namespace rowland::gpu {
 
 /// Routes the driver's messages (KHR_debug) to the log, synchronously, so that a debugger stops at the call at fault.
 /// The context must be a debug context. Errors, undefined behaviour and deprecated use are logged as errors and, if
-/// `fatal`, end the program (tests run so); portability and performance notes are logged at most. The same message is
-/// logged once.
+/// `fatal`, end the program (tests run so). Other messages of medium or high severity are logged as warnings. The same
+/// message is logged once.
 void enable_debug_output(bool fatal);
 
-/// What drivers limit. The values here are those that OpenGL 4.5 guarantees.
+/// Limits of a driver. The values here are those that OpenGL 4.5 guarantees.
 struct Limits {
-    std::int64_t storage_block_bytes = 1 << 24;  ///< that a shader sees of a storage buffer
+    std::int64_t storage_block_bytes = 1 << 24;  ///< of a storage buffer, as a shader sees it
     int vertex_storage_blocks = 0;               ///< storage buffers of a vertex stage
     int buffer_texels = 1 << 16;                 ///< of a buffer that a shader reads as a texture
     int texture_side = 16384;                    ///< texels; of a line, a plane, a layer
@@ -26,7 +26,7 @@ struct Limits {
     int texture_layers = 2048;
 };
 
-/// Those of the current context. Asks the driver: call it while loading.
+/// The limits of the current context. Asks the driver: call it while loading.
 Limits read_limits();
 
 /// Throws Error (system) that names a side or a number of layers that is too large.
@@ -34,13 +34,13 @@ void require_texture(const TextureDesc& desc, const Limits& limits);
 
 /// Buffers that an object's vertex stage reads.
 struct VertexStorage {
-    std::string what;        ///< that needs them
+    std::string what;        ///< what needs them, for the message
     int blocks = 1;          ///< storage buffers
     std::size_t bytes = 0;   ///< of the largest
     std::size_t texels = 0;  ///< of a buffer that is read as a texture
     std::string remedy;
 };
-/// Throws Error (system) with this remedy.
+/// Throws Error (system) with the given remedy if a number is above its limit.
 void require_vertex_storage(const VertexStorage& storage, const Limits& limits);
 
 /// Throws Error (system) if the current context is lost, as after a reset of the GPU: nothing that it draws or reads

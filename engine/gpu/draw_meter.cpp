@@ -48,7 +48,7 @@ void DrawMeter::end_run() {
     if (std::exchange(in_run_, false)) write_time(2 * frame_->runs.size() - 1);
 }
 
-/// False while the GPU is not done with it.
+/// Reads the results of a frame; returns false if the GPU has not finished it.
 bool DrawMeter::read(QueuedFrame& frame) const {
     if (frame.runs.empty()) return true;
     // The last query is the last to be answered.

@@ -10,7 +10,7 @@
 
 namespace rowland::gpu {
 
-/// Draws of one kind that followed each other, as the GPU drew them.
+/// Consecutive draws of one kind.
 struct MeteredRun {
     struct Draw {
         std::uint64_t object = 0;
@@ -27,8 +27,8 @@ class DrawMeter {
  public:
     DrawMeter();
 
-    /// A draw from construction to destruction; with null it does nothing. Not to be nested. It continues the run
-    /// before it if that was of its kind.
+    /// Measures the draw between construction and destruction; with null it does nothing. Not to be nested. It
+    /// continues the current run if that is of its kind, and else begins another.
     class Scope {
      public:
         Scope(DrawMeter* meter, std::uint64_t kind, std::uint64_t object);
@@ -40,18 +40,18 @@ class DrawMeter {
         DrawMeter* meter_;
     };
 
-    /// Once before the first draw of each frame. Ends the last frame.
+    /// To be called once before the first draw of each frame. Ends the previous frame.
     void begin_frame();
-    /// Other draws follow.
+    /// Ends the current run: to be called before draws that are not measured.
     void end_run();
-    /// The runs of the frames that the GPU has finished since the last call, the newest frame's alone.
+    /// The runs of the newest frame that the GPU has finished; null if it has finished none since the last call.
     std::optional<std::vector<MeteredRun>> take_finished();
 
  private:
     struct Release {
         void operator()(GLuint name) const;
     };
-    /// Names of one kind, which are made when they are first needed.
+    /// Query objects of one target, created when they are first needed.
     class Queries {
      public:
         explicit Queries(GLenum target) : target_(target) {}

@@ -13,7 +13,7 @@ namespace rowland::gpu {
 
 namespace {
 
-/// For draws, and for reads until a picture is read.
+/// Binds for draws and reads; only Framebuffer::read() binds another one for reads.
 void bind_framebuffer(GLuint name) {
     if (bound_state().changes(BoundState::Slot::Framebuffer, 0, {name})) glBindFramebuffer(GL_FRAMEBUFFER, name);
 }
@@ -24,7 +24,7 @@ GLuint create_framebuffer() {
     return name;
 }
 
-/// Turns rows given from the bottom up to rows from the top down.
+/// Reverses the order of rows.
 template <typename T>
 void flip_rows(std::vector<T>& values, int height) {
     const std::size_t row = values.size() / static_cast<std::size_t>(height);

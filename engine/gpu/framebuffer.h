@@ -36,20 +36,21 @@ class Framebuffer {
     /// copied.
     void resolve_to(const Framebuffer& target) const;
 
-    /// Takes a sample of every pixel's depth to `target`, of the same size.
+    /// Copies one sample of every pixel's depth to `target`, of the same size.
     void resolve_depth_to(const Framebuffer& target) const;
 
     /// Copies the first colour into the window's own framebuffer, pixel by pixel from the lower left.
     void show_in_window() const;
 
-    /// Draws go here from now on, over the whole area.
+    /// Draws go here from now on, with a viewport over the whole area.
     void bind() const;
     /// Draws go to the window's own framebuffer from now on. The viewport stays as it is.
     static void bind_window();
     void clear(const glm::vec4& colour, unsigned attachment = 0) const;
     void clear_depth(float depth = 1.0F) const;
 
-    /// The textures it made itself; there are none with several samples.
+    /// The textures that it made itself; it is a logic error to ask for one that it has not made, as with several
+    /// samples.
     const Texture& colour(unsigned attachment = 0) const;
     const Texture& depth() const;
 

@@ -13,7 +13,7 @@ namespace rowland::gpu {
 
 struct PassTime {
     std::string name;
-    double cpu_ms = 0.0;           ///< in this frame, or in the last one until this one has run it
+    double cpu_ms = 0.0;           ///< in this frame, or in the last one while no pass has run in this one
     std::optional<double> gpu_ms;  ///< in the last frame that the GPU has finished; null before
 };
 
@@ -23,7 +23,7 @@ class PassTimes {
  public:
     PassTimes();
 
-    /// A pass from construction to destruction; with null it does nothing. Passes may nest.
+    /// Times the pass between construction and destruction; with null it does nothing. Passes may nest.
     class Scope {
      public:
         Scope(PassTimes* times, std::string_view name);
@@ -37,9 +37,10 @@ class PassTimes {
         std::chrono::steady_clock::time_point start_;
     };
 
-    /// Once before the first pass of each frame.
+    /// To be called once before the first pass of each frame.
     void begin_frame();
-    /// In the order the passes first ran. A pass that did not run in a frame is not in it.
+    /// The passes of this frame, or of the last one while none has run in this one, in the order in which they first
+    /// ran.
     std::vector<PassTime> latest() const;
 
  private:

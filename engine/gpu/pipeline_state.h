@@ -9,7 +9,7 @@
 
 namespace rowland::gpu {
 
-/// What is set in a context, so that nothing is set twice.
+/// The state that is known to be set in a context, so that redundant calls are skipped.
 class BoundState {
  public:
     enum class Slot {
@@ -30,10 +30,10 @@ class BoundState {
         Scissor,
         ColourMask,
     };
-    /// Of an object its name first.
+    /// The first number is the name where the slot holds an object.
     using Value = std::array<std::int64_t, 4>;
 
-    /// Whether the slot may hold another value than this. Then the caller sets it, and it counts as set.
+    /// Whether the slot may hold another value. If so, `value` is recorded, and the caller must set it.
     bool changes(Slot slot, unsigned index, const Value& value);
     /// To be called when an object is deleted: OpenGL unbinds it, and may give its name to a new one.
     void forget(Slot slot, GLuint name);
@@ -43,7 +43,7 @@ class BoundState {
     std::map<std::pair<Slot, unsigned>, Value> values_;  ///< those that are known
 };
 
-/// That of the current context. One per thread, as a thread has one current context.
+/// The state of the current context. There is one per thread, as a thread has one current context.
 BoundState& bound_state();
 
 /// To be called when another context becomes current (platform::HeadlessContext and platform::Window do) and after
@@ -76,7 +76,7 @@ struct PipelineState {
     Cull cull = Cull::Back;
     Blend blend = Blend::Off;
     FrontFace front = FrontFace::CounterClockwise;  ///< clockwise behind a mirroring transform
-    float slope_bias = 0.0F;  ///< depth added for each depth step of the surface from pixel to pixel: shadow maps
+    float slope_bias = 0.0F;  ///< for shadow maps: depth added, in units of the surface's depth slope per pixel
     std::optional<Scissor> scissor = std::nullopt;  ///< none: the whole target
 
     friend bool operator==(const PipelineState&, const PipelineState&) = default;
@@ -84,7 +84,7 @@ struct PipelineState {
 
 void apply(const PipelineState& state);
 
-/// That part of it alone, which clears obey as well.
+/// Sets PipelineState::depth_write alone. Clears of depth depend on it as well.
 void set_depth_write(bool on);
 
 }  // namespace rowland::gpu

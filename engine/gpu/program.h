@@ -26,12 +26,12 @@ struct CompileMessage {
     std::string text;
 };
 
-/// Splits a driver's log into messages, errors first. Lines are numbered as in ShaderText, `files` are its files. Reads
-/// the positions of Mesa "0:12(5): error: …", NVIDIA "0(12) : error …" and others "ERROR: 0:12: …"; any other line
-/// becomes a message without one.
+/// Splits a driver's log into messages, errors first. Lines are numbered as in ShaderText, whose files are `files`.
+/// Reads the positions of Mesa "0:12(5): error: …", NVIDIA "0(12) : error …" and others "ERROR: 0:12: …"; any other
+/// line becomes a message without a position.
 std::vector<CompileMessage> parse_compile_log(std::string_view log, std::span<const std::string> files);
 
-/// What a program is built from: file names for the library; those left empty are not used.
+/// What a program is built from: a file of the library for each stage, empty for a stage that it lacks.
 struct ProgramDesc {
     std::string vertex = {};
     std::string fragment = {};
@@ -44,7 +44,7 @@ class Program {
     Program() = default;
     /// Throws Error (system) with the file, the line in it and the driver's message if it does not compile or link.
     Program(const ShaderLibrary& library, const ProgramDesc& desc);
-    /// From texts assembled elsewhere, such as code a library generated.
+    /// The same from texts assembled elsewhere, such as code that a library generated.
     Program(const ShaderText& vertex, const ShaderText& fragment);
 
     /// Draws use it from now on.
@@ -52,8 +52,8 @@ class Program {
     /// use(), then runs a compute program on so many groups, and waits for its writes before later reads.
     void dispatch(unsigned groups_x, unsigned groups_y = 1, unsigned groups_z = 1) const;
 
-    /// Sets a uniform, unless it has the value. One the compiler removed because nothing reads it is ignored: which
-    /// those are differs by driver.
+    /// Sets a uniform, unless it has the value. An unknown name is ignored: compilers remove uniforms that nothing
+    /// reads, and which ones differs by driver.
     void set(std::string_view name, int value) const;
     void set(std::string_view name, float value) const;
     void set(std::string_view name, const glm::ivec2& value) const;
@@ -77,7 +77,7 @@ class Program {
     };
     void link(std::span<const GLuint> shaders, const std::string& names);
     void find_uniforms();
-    /// Where to set the uniform, unless there is none of that name or it has the value.
+    /// Records the value and returns the uniform's location; null if there is no such uniform or it has the value.
     std::optional<GLint> changed(std::string_view name, std::span<const std::byte> value) const;
 
     struct Uniform {

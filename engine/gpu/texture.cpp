@@ -77,7 +77,7 @@ TextureDesc complete(TextureDesc desc) {
     return desc;
 }
 
-/// How many slices a level has.
+/// Slices, layers or faces of a level.
 int slice_count(const TextureDesc& desc, int level) {
     if (desc.kind == TextureKind::CubeMap) return 6;
     return desc.kind == TextureKind::Volume ? std::max(desc.depth >> level, 1) : desc.depth;
@@ -180,7 +180,7 @@ void Texture::upload(std::span<const std::uint8_t> data, TextureSlice slice) {
 
 void Texture::upload(std::span<const std::uint16_t> data, TextureSlice slice) {
     const bool is_half = is_half_float(desc_.format);
-    // Drivers copy them; texels that lack a component they convert one by one.
+    // Drivers copy texels that have all components, but convert others one by one.
     if (is_half)
         ROWLAND_CHECK_OP(data.size_bytes(), ==,
                          texels(slice) * static_cast<std::size_t>(bytes_per_texel(desc_.format)));

@@ -30,7 +30,7 @@ enum class Format {
 
 GLenum internal_format(Format format);
 int bytes_per_texel(Format format);
-/// Then 16-bit uploads are the bits of half floats.
+/// Whether texels are half floats. If so, 16-bit uploads are their bits.
 bool is_half_float(Format format);
 
 enum class TextureKind { Line, Plane, PlaneArray, Volume, CubeMap };  ///< GLSL: sampler1D, 2D, 2DArray, 3D, Cube
@@ -74,17 +74,17 @@ struct TextureSlice {
 class Texture {
  public:
     Texture() = default;
-    /// It is a logic error if a size is below 1 or does not suit the kind. Throws Error (system) for one that is more
-    /// than the GPU's limit (context.h).
+    /// It is a logic error if a size is below 1 or does not suit the kind. Throws Error (system) if a size is above the
+    /// GPU's limit (context.h).
     explicit Texture(const TextureDesc& desc, const Sampling& sampling = {});
 
     /// Writes whole slices. The data's length gives the components per texel (1 to 4, independent of the format;
-    /// missing ones become 0, alpha 1). 8- and 16-bit data is normalised, but for half-float formats 16-bit data is the
-    /// bits of whole texels' halves. It is a logic error if the length is not 1 to 4 times the texels of the slice.
+    /// missing ones become 0, alpha 1). 8- and 16-bit data is normalised, except that 16-bit data of half-float formats
+    /// is the bits of halves, all components of each texel. It is a logic error if the length does not suit the slice.
     void upload(std::span<const float> data, TextureSlice slice = {});
     void upload(std::span<const std::uint8_t> data, TextureSlice slice = {});
     void upload(std::span<const std::uint16_t> data, TextureSlice slice = {});
-    /// A texel of RGB10_A2 each: red in the lowest ten bits.
+    /// One number per texel of RGB10_A2, red in the lowest ten bits.
     void upload(std::span<const std::uint32_t> data, TextureSlice slice = {});
     void upload(std::span<const glm::vec3> data, TextureSlice slice = {});
     void upload(std::span<const glm::vec4> data, TextureSlice slice = {});
@@ -94,7 +94,7 @@ class Texture {
     void set_sampling(const Sampling& sampling);
     /// Binds to a texture unit, as `layout(binding = unit)` in GLSL.
     void bind(unsigned unit) const;
-    /// Binds level 0 with all its layers to an image unit, for what a compute program reads and writes.
+    /// Binds level 0 with all its layers to an image unit, for a compute program to read and write.
     void bind_image(unsigned unit) const;
 
     /// Texels of whole slices as floats, RGBA, in the order of uploads. Waits for the GPU.

@@ -125,14 +125,15 @@ constexpr int kSmallestFace = 16;
 constexpr int kLargestFace = 1024;
 constexpr int kLastLevelFace = 4;
 
-/// Columns of equirectangular images of 2:1 whose texels are as wide as this probe's, and as high.
+/// Widths of two equirectangular images of 2:1: x of the one whose texels are as wide as the probe's, y of the one
+/// whose texels are as high.
 glm::ivec2 equivalent_width(const ProbeImage& probe) {
     const image::Image& image = probe.image();
     return {image.width, probe.mapping() == Mapping::Angular ? image.width : 2 * image.height};
 }
 
-/// Level 0 where the probe is about as fine as the cube map, or coarser: the mean of bilinear look-ups, at least two a
-/// texel of the probe in each direction (as long as that is 16 or fewer).
+/// Level 0 where the probe is not much finer than the cube map, or is an angular map: the mean of bilinear look-ups. In
+/// each direction they are two or more per texel of the probe, but at least 4 and at most 16 per texel of the cube map.
 void gather_level0(const ProbeImage& probe, EnvironmentMap& map) {
     const int size = map.layout.face_size;
     const glm::ivec2 width = equivalent_width(probe);
@@ -159,8 +160,8 @@ void gather_level0(const ProbeImage& probe, EnvironmentMap& map) {
     });
 }
 
-/// Level 0 where an equirectangular probe is much finer: each of its texels, in four parts, is added to the cube texel
-/// it lies in. Flux is kept exactly.
+/// Level 0 where an equirectangular probe is much finer: each quarter of its texels is added to the cube texel in which
+/// it lies. Flux is kept exactly.
 void scatter_level0(const ProbeImage& probe, EnvironmentMap& map) {
     const image::Image& image = probe.image();
     const int size = map.layout.face_size;
@@ -192,8 +193,8 @@ void scatter_level0(const ProbeImage& probe, EnvironmentMap& map) {
 void fill_level0(const ProbeImage& probe, EnvironmentMap& map) {
     constexpr int kMuchFiner = 4;
     const glm::ivec2 width = equivalent_width(probe);
-    const bool finer = std::min(width.x, width.y) >= kMuchFiner * 4 * map.layout.face_size;
-    if (finer && probe.mapping() == Mapping::Equirectangular)
+    const bool much_finer = std::min(width.x, width.y) >= kMuchFiner * 4 * map.layout.face_size;
+    if (much_finer && probe.mapping() == Mapping::Equirectangular)
         scatter_level0(probe, map);
     else
         gather_level0(probe, map);
@@ -297,7 +298,7 @@ EnvironmentMap prefilter(const ProbeImage& probe, const PrefilterSettings& setti
 
 namespace {
 
-/// A texel, which may lie a column or a row beyond a face's edge: then the next face's.
+/// A texel of a face; for a column or row just beyond its edge, a texel of the adjacent face.
 glm::dvec3 texel(const EnvironmentMap& map, int level, int face, int column, int row) {
     const int size = map.layout.size(level);
     if (std::min(column, row) < 0 || std::max(column, row) >= size) {
@@ -328,8 +329,8 @@ glm::dvec3 between_texels(const EnvironmentMap& map, int level, const glm::dvec3
 
 glm::dvec3 environment_light(const EnvironmentMap& map, const glm::dvec3& direction, double roughness) {
     const int last = map.layout.levels - 1;
-    const double even = roughness * last;
-    const double level = std::min(even * std::min(even, 1.0), static_cast<double>(last));
+    const double linear = roughness * last;
+    const double level = std::min(linear * std::min(linear, 1.0), static_cast<double>(last));
     const int first = std::min(static_cast<int>(level), std::max(last - 1, 0));
     const glm::dvec3 light = between_texels(map, first, direction);
     return last == 0 ? light : glm::mix(light, between_texels(map, first + 1, direction), level - first);

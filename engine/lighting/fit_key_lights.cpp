@@ -22,14 +22,14 @@ namespace {
 
 using std::numbers::pi;
 
-/// Cells a side of a cube face that the probe is summed in: .006 rad. A cell's light is at its centroid.
+/// Cells per side of the cube faces on which the probe is summed: .006 rad. A cell's light is at its centroid.
 constexpr int kFitFace = 256;
 
 /// Tikhonov regularisation, relative to the matrix's diagonal: keeps overlapping lobes from cancelling each other.
 constexpr double kRidge = 1e-3;
 
-/// Cholesky factors of a fit's matrix. It has some tens of rows: Eigen's factorisations, whose blocks are for hundreds,
-/// would be a tenth of the code that the page for browsers loads.
+/// Cholesky factors of a fit's matrix, which has some tens of rows. Eigen's factorisations are made for hundreds, and
+/// would be a tenth of the code that browsers load for the web page.
 class Factors {
  public:
     explicit Factors(Eigen::MatrixXd matrix) : lower_(std::move(matrix)) {
@@ -189,8 +189,8 @@ class Fit {
 /// Lobes of one concentration that greedy selection tries; refinement changes them.
 struct TrialLobes {
     double concentration;
-    int side;           ///< nodes a side of a cube face, at whose light the lobes are
-    std::size_t count;  ///< at most: at the nodes of the largest flux
+    int side;           ///< nodes per side of a cube face; each lobe is at the centroid of a node's light
+    std::size_t count;  ///< most lobes, which are those at the nodes of the largest flux
 };
 constexpr std::array<TrialLobes, 5> kTrialLobes{
     {{40.0, 16, 1536}, {150.0, 32, 2048}, {600.0, 64, 1024}, {3000.0, 64, 1024}, {20000.0, 64, 1024}}};
@@ -282,7 +282,7 @@ class Candidates {
     std::vector<std::vector<double>> with_lobes_;  ///< ⟨candidate, lobe⟩, lobe by lobe
 };
 
-/// Line search by one step: along two tangents, then in width.
+/// One step of a line search for lobe `k`: along two tangents, then in width, where that increases the gain.
 void refine(Fit& fit, std::size_t k, double step, double narrowest, const KeyLightFit& settings) {
     const auto moved = [&](int side) {
         const LobeShape lobe = fit.lobes()[k].shape;
@@ -322,7 +322,7 @@ std::vector<KeyLight> fit_key_lights(const ProbeImage& probe, int count, const K
     ROWLAND_CHECK_OP(settings.smoothing, >, 0.0);
     if (count == 0) return {};
     const MeasuredProbe measured(bin_into_cells(probe, kFitFace), kFitFace, settings);
-    // A texel's light, bilinear as it is seen, has a variance of a sixth of its side's square.
+    // Bilinear interpolation spreads a texel's light with a variance of a sixth of the square of its side.
     const double side = 2.0 * pi / probe.image().width;
     const double narrowest = std::clamp(6.0 / (side * side), kWidestConcentration, kNarrowestConcentration);
     Candidates candidates(measured, narrowest);

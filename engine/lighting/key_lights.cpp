@@ -17,8 +17,8 @@ using std::numbers::pi;
 /// From this concentration on the recurrence in l runs upward: it loses exp(l²/κ), at most 4 digits at 32 bands.
 constexpr double kUpwardConcentration = 120.0;
 
-/// Steps the downward recurrence starts above the last band: below kUpwardConcentration each forgets its start by the
-/// square of the ratio, 1e-30 in all.
+/// The downward recurrence starts this many bands above the last one. Below kUpwardConcentration each step multiplies
+/// the error of the start by the square of the ratio, by 1e-30 in all.
 constexpr int kHeadStart = 160;
 
 std::vector<double> factors_upward(double concentration, int bands) {

@@ -52,7 +52,7 @@ inline constexpr double kNarrowestConcentration = 1e6;
 /// Raw radiance SH of the lobes, in closed form; 1 ≤ bands ≤ 32.
 ShLight project(std::span<const KeyLight> keys, int bands);
 
-/// SH(probe) − SH(lobes) in exactly `bands` bands. Its sum with the lobes has the probe's low bands exactly.
+/// SH(probe) − SH(lobes) in exactly `bands` bands. In these its sum with the lobes equals the probe.
 ShLight residual(const ShLight& probe, std::span<const KeyLight> keys, int bands);
 
 /// Means over a lobe: A₁(κ) = mean of s·direction, and the variances of s along the direction and across it.
@@ -63,11 +63,12 @@ struct LobeMoments {
 };
 LobeMoments lobe_moments(double concentration);
 
-/// A normal distribution of mean m and deviation σ ≥ 0 cut off below 0: the first moments of max(0, x).
+/// Moments of x⁺ = max(0, x) for a normally distributed x of given mean and deviation σ ≥ 0; all are 0 where E[x⁺] is
+/// below 1e-12 σ.
 struct ClampedNormal {
-    double mean = 0.0;           ///< E[x⁺]
-    double weighted_mean = 0.0;  ///< E[x x⁺] / E[x⁺]
-    double weighted_variance = 0.0;
+    double mean = 0.0;               ///< E[x⁺]
+    double weighted_mean = 0.0;      ///< E[x x⁺] / E[x⁺]
+    double weighted_variance = 0.0;  ///< E[x² x⁺] / E[x⁺] − weighted_mean²
 };
 ClampedNormal clamp_normal(double mean, double deviation);
 

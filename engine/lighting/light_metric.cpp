@@ -107,15 +107,15 @@ void CubeTree::join_levels(std::vector<Node> leaves, int face_size) {
 
 namespace {
 
-/// Cells a side of a cube face, for normals and for directions.
+/// Cells per side of a cube face, for normals and for directions.
 constexpr int kNormalSide = 6;
 constexpr int kWeightSide = 32;
 constexpr std::size_t kCorners = kWeightSide + 1;
 
-/// Least squared signal of a surface, as a fraction of the mean.
+/// Added to the squared signal of every surface, as a fraction of the mean, so that none is 0.
 constexpr double kLeastSignal = 4e-4;
 
-struct Facing {
+struct WeightedNormal {
     glm::dvec3 normal;
     double weight;  ///< of max(0, n·s)²
 };
@@ -125,8 +125,8 @@ double clamped_square(const glm::dvec3& normal, const glm::dvec3& s) {
     return cosine * cosine;
 }
 
-std::vector<Facing> facings(std::span<const DirectionWeight::Signal> signals) {
-    std::vector<Facing> result;
+std::vector<WeightedNormal> weighted_normals(std::span<const DirectionWeight::Signal> signals) {
+    std::vector<WeightedNormal> result;
     std::vector<double> squares;
     double mean = 0.0;
     for (int face = 0; face < 6; ++face)
@@ -152,7 +152,7 @@ std::vector<Facing> facings(std::span<const DirectionWeight::Signal> signals) {
 }  // namespace
 
 DirectionWeight::DirectionWeight(std::span<const Signal> signals) {
-    const std::vector<Facing> all = facings(signals);
+    const std::vector<WeightedNormal> normals = weighted_normals(signals);
     double mean = 0.0;
     for (int face = 0; face < 6; ++face)
         for (std::size_t row = 0; row < kCorners; ++row)
@@ -161,7 +161,7 @@ DirectionWeight::DirectionWeight(std::span<const Signal> signals) {
                     glm::normalize(cube_direction(face, 2.0 * static_cast<double>(column) / kWeightSide - 1,
                                                   2.0 * static_cast<double>(row) / kWeightSide - 1));
                 double weight = 0.0;
-                for (const Facing& facing : all) weight += facing.weight * clamped_square(facing.normal, s);
+                for (const auto& [normal, of_normal] : normals) weight += of_normal * clamped_square(normal, s);
                 roots_.push_back(std::sqrt(weight));
                 mean += roots_.back() / (6.0 * kCorners * kCorners);
             }
@@ -200,7 +200,7 @@ constexpr double kMetricReach = 12.0;
 /// The weight varies slowly: the weighted light of n exact bands lies in n + kFurtherBands bands.
 constexpr int kFurtherBands = 3;
 
-/// Nodes a side of a cube face that bands are summed in, and the signal of light: .05 and .1 rad.
+/// Nodes per side of the cube faces on which the low bands and the signals are summed: .05 and .1 rad.
 constexpr int kLowBandSide = 32;
 constexpr int kSignalSide = 16;
 
@@ -219,12 +219,12 @@ void for_each_node(const CubeTree& tree, int depth, const Function& function) {
             for (int column = 0; column < side; ++column) function(tree.node(depth, face, column, row));
 }
 
-/// A sum over a tree: exp(concentration (cosine − 1)) about an axis.
+/// Sum of the light of a tree, weighted by exp(concentration (cosine − 1)) about an axis.
 struct TreeSum {
     const CubeTree& tree;
     glm::vec3 axis{0.0F};
     float concentration = 0.0F;
-    float reach = 0.0F;  ///< chord
+    float reach = 0.0F;  ///< longest chord from the axis to light that is counted
     float open = 0.0F;   ///< size of the largest node on the axis that is not opened
     glm::dvec3 sum{0.0};
 
@@ -233,7 +233,7 @@ struct TreeSum {
         const glm::vec3 chord = node.source - axis;
         const float square = glm::dot(chord, chord);
         const bool opened = depth < tree.leaf_depth() && node.size > open * (1.0F + concentration * square / kFarther);
-        // Light of a node is at most a diagonal of a stretched cell from its centroid.
+        // The light of a node is no farther from its centroid than a diagonal of the most stretched cell.
         const float within = reach + (opened ? 1.7F * node.size : 0.0F);
         if (square > within * within) return;
         if (!opened) {
@@ -263,7 +263,8 @@ glm::dvec3 product_with(const CubeTree& tree, const LobeShape& lobe, const KeyLi
     return result;
 }
 
-/// The light of a tree's nodes, times what LobeProduct sees at each.
+/// The weight for the light of a tree. Each node is a signal: its square is the node's flux times the light that is
+/// smoothed by LobeProduct in its direction.
 DirectionWeight weight_of(const CubeTree& light, const KeyLightFit& settings) {
     std::vector<const CubeTree::Node*> nodes;
     for_each_node(light, depth_of(light, kSignalSide), [&](const CubeTree::Node& node) { nodes.push_back(&node); });

@@ -26,12 +26,12 @@ class CubeTree {
 
     /// `texels`: 6·face_size² of radiance in CubeLayout's order; face_size a power of two ≥ 4.
     CubeTree(std::span<const glm::vec3> texels, int face_size);
-    /// The same of light that was gathered in cells: a leaf's source is its cell's weighted mean direction.
+    /// The same for light in the cells of bin_into_cells(): a leaf's source is its cell's weighted mean direction.
     CubeTree(std::span<const CubeCell> cells, int face_size);
 
-    /// Depth of the leaves, whose nodes are the texels; the roots (depth 0) are faces cut in 4 × 4.
+    /// Depth of the leaves, which are the texels. The roots, at depth 0, are 4 × 4 parts of each face.
     int leaf_depth() const { return static_cast<int>(levels_.size()) - 1; }
-    /// Nodes a side of a face.
+    /// Nodes per side of a face.
     int side(int depth) const { return kRootSide << depth; }
     const Node& node(int depth, int face, int column, int row) const {
         const auto n = static_cast<std::size_t>(side(depth));
@@ -103,15 +103,15 @@ struct MeasuredLobe {
     Eigen::VectorXd error;  ///< weighted error (light − SH of the exact bands) in the low bands
 };
 
-/// Compares a probe with lobes under KeyLightFit's objective: the error light − SH(light) of the exact bands times
-/// DirectionWeight::root(). So ringing of SH(light) far from a lamp is weighted by the light seen there. Light near a
-/// lobe is summed in small nodes of a tree, distant light in large ones.
+/// Compares a probe with lobes under KeyLightFit's objective: the error, light − SH(light) in the exact bands, is
+/// multiplied by DirectionWeight::root(). So ringing of SH(light) far from a lamp is weighted by the light seen there.
+/// Light near a lobe is summed in small nodes of a tree, distant light in large ones.
 class MeasuredProbe {
  public:
-    /// `cells`: of bin_into_cells() with `face_size`.
+    /// `cells`: bin_into_cells() with `face_size`.
     MeasuredProbe(std::span<const CubeCell> cells, int face_size, const KeyLightFit& settings);
 
-    /// The light times the weight's root.
+    /// The light times weight().root().
     const CubeTree& tree() const { return tree_; }
     const KeyLightFit& settings() const { return settings_; }
     const DirectionWeight& weight() const { return weight_; }
@@ -129,7 +129,7 @@ class MeasuredProbe {
     DirectionWeight weight_;
     CubeTree tree_;
     Eigen::VectorXd band_roots_;  ///< square roots of the coefficients' weights
-    Eigen::MatrixXd shown_;       ///< from SH in the exact bands to their weighted light in the low bands
+    Eigen::MatrixXd shown_;       ///< maps SH in the exact bands to its weighted light in the low bands
     Eigen::MatrixX3d bands_;      ///< MeasuredLobe's quantities for the probe
     Eigen::MatrixX3d error_;
 };

@@ -249,7 +249,7 @@ void write_dome(const std::optional<CaptureDome>& dome, ByteWriter& writer) {
     writer.value(dome ? dome->radius_m : 0.0);
 }
 
-/// A radius of 0 is none.
+/// A height and a radius of 0 are no dome.
 std::optional<CaptureDome> read_dome(ByteReader& reader) {
     const auto height_m = reader.value<double>();
     const auto radius_m = reader.value<double>();
@@ -279,11 +279,7 @@ glm::dvec3 mean_radiance(const ShLight& light) {
     return light.coefficients[0] / std::sqrt(4 * std::numbers::pi);
 }
 
-}  // namespace
-
-namespace {
-
-/// Sums over the image are single precision.
+/// Throws Error (input) if a component is above kLargestRadiance: sums over the image are in single precision.
 void require_finite_sums(const ProbeImage& probe) {
     const image::Image& image = probe.image();
     const auto width = static_cast<std::size_t>(image.width);

@@ -49,7 +49,7 @@ struct LightProbeSettings {
     int bands = 16;       ///< of the raw SH, 1 to 32
     int key_lights = 16;  ///< at most, 0 to kMaximumKeyLights
     KeyLightFit key_light_fit = {};
-    int light_face = 256;  ///< cells a side of the packed light; about the texels of a probe of 1024 × 512
+    int light_face = 256;  ///< cells per face side of the packed light; about the texels of a probe of 1024 × 512
     PrefilterSettings prefilter;
     colour::Illuminant illuminant = colour::d65();  ///< the spectrum of the probe's white
     std::optional<CaptureDome> dome = {};
@@ -64,13 +64,13 @@ struct LightProbe {
     PackedLight light;                              ///< at full resolution, with the key lights
     PackedEnvironmentMap environment;               ///< prefiltered for glossy reflection
     std::optional<CaptureDome> dome;                ///< none: the environment is infinitely far away
-    InvalidTexelCounts report;                      ///< texels of the source image that were taken as black
+    InvalidTexelCounts report;                      ///< of the source image
 };
 
 /// Version of serialise()'s layout and of build_light_probe()'s results; part of the cooked header.
 inline constexpr std::uint32_t kLightProbeVersion = 5;
 
-/// The brightest texel of a light probe.
+/// The largest component of a texel of which build_light_probe() makes a probe.
 inline constexpr float kLargestRadiance = 1e30F;
 
 /// Deterministic for any number of threads. Throws Error (input) if the image is brighter than kLargestRadiance.

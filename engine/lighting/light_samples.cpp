@@ -17,7 +17,7 @@ namespace rowland::lighting {
 
 namespace {
 
-/// Into how many parts a texel is divided along x and along y, so that none is longer than `largest_side`.
+/// Numbers of parts along x and y into which a texel is divided, so that no part is longer than `largest_side` radians.
 glm::ivec2 parts_of(const ProbeImage& probe, double largest_side) {
     const auto parts = [largest_side](double side) {
         return std::max(1, static_cast<int>(std::ceil(side / largest_side - 1e-9)));
@@ -216,7 +216,7 @@ void subtract_narrow_lobe(const KeyLight& key, LightSamples& samples) {
 std::vector<CubeCell> bin_into_cells(const ProbeImage& probe, int face_size) {
     const FineProbe fine(probe, kMaximumTexelSide);
     const int height = fine->image().height;
-    const int rows = std::max(1, (1 << 18) / fine->image().width);  // at a time: 6 MB of samples
+    const int rows = std::max(1, (1 << 18) / fine->image().width);  // per block: about 6 MB of samples
     CellAccumulator cells(face_size);
     for (int row = 0; row < height; row += rows) cells.add(row_samples(*fine, row, std::min(height, row + rows)));
     return cells.result();
@@ -241,7 +241,7 @@ LightSamples merge_samples(const LightSamples& texels, int face_size) {
 
 namespace {
 
-/// Cells a side of the cube faces that lobes are sampled on; a cell's longest side is 2 / kLobeFace.
+/// Cells per side of the cube faces on which lobes are sampled; a cell's longest side is 2 / kLobeFace.
 constexpr int kLobeFace = 128;
 
 /// Steps of a position along a cell's side.

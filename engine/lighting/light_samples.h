@@ -25,11 +25,12 @@ struct LightSamples {
     void push_back(const glm::dvec3& direction, const glm::dvec3& flux);
 };
 
-/// Texels with a side above this, in radians, are subdivided into samples of bilinearly interpolated radiance.
+/// The largest side of a texel, in radians, that is one sample by default.
 inline constexpr double kMaximumTexelSide = 0.0065;
 
 /// Samples of a probe's texels, from which the lobes of `keys` are subtracted: lobes and samples together have the
-/// probe's flux. Does not depend on the number of threads. 24 bytes per sample: 12 MB for 1024 × 512 texels.
+/// probe's flux. Texels with a side above `largest_side`, in radians, are subdivided into samples of bilinearly
+/// interpolated radiance. Does not depend on the number of threads. 24 bytes per sample: 12 MB for 1024 × 512 texels.
 LightSamples light_samples(const ProbeImage& probe, std::span<const KeyLight> keys = {},
                            double largest_side = kMaximumTexelSide);
 
@@ -55,10 +56,10 @@ LightSamples merge_samples(const LightSamples& texels, int face_size);
 /// direction, with the lobe's low-order moments.
 void subtract_narrow_lobe(const KeyLight& key, LightSamples& samples);
 
-/// All light of a probe, packed for storage: a sample in each cell of a cube map (CubeLayout's order), 8 bytes each. It
-/// has the cell's flux and a position within the cell, so a compact lamp keeps its flux and its direction.
+/// All light of a probe, packed for storage: one sample per cell of a cube map (CubeLayout's order), of 8 bytes. A
+/// sample has the cell's flux and a position within the cell, so a compact lamp keeps its flux and its direction.
 struct PackedLight {
-    int face_size = 0;                    ///< cells a side of a face; 0: no light
+    int face_size = 0;                    ///< cells per side of a face; 0: no light
     float scale = 1.0F;                   ///< flux per stored unit, a power of two
     std::vector<std::uint16_t> halves;    ///< flux: all red, all green, all blue; half floats ≥ 0, 18·face_size²
     std::vector<std::uint8_t> positions;  ///< of the samples in their cells: all along s, then all along t, in 256ths

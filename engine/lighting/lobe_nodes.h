@@ -11,11 +11,13 @@ namespace rowland::lighting {
 // Quadrature of the GGX lobe of a rough surface, seen from one view, over the angle of incidence on its microfacets.
 // `roughness` is perceptual.
 
-/// Samples half vectors; for those whose light comes from above the surface calls f(cos θ_i on the microfacet, weight).
-/// The weights are those of the split sum (engine/render/light_maps.h), divided by the number of samples.
+/// Samples half vectors, and calls f(cos θ_i on the microfacet, weight) for each that reflects light from above the
+/// surface. The weights are those of bake_brdf_table() (engine/render/light_maps.h), divided by the number of samples.
+/// Cosines and alpha = roughness² below 1e-3 count as 1e-3.
 void sample_lobe(double view_cosine, double roughness, const std::function<void(double, double)>& f);
 
-/// Histogram of the angles of incidence: the lobe's fraction per equal step of √cos θ_i; they sum to 1.
+/// Distribution of the angles of incidence: `steps` + 1 weights at equal steps of √cos θ_i from 0 to 1, which sum to 1.
+/// A sample between two of these counts linearly for both.
 std::vector<double> lobe_angles(double view_cosine, double roughness, int steps);
 
 /// Directional albedo of microfacets that reflect all light.
@@ -23,8 +25,8 @@ double lobe_albedo(double view_cosine, double roughness);
 
 inline constexpr int kLobeNodes = 4;
 
-/// A node of the quadrature: the angle of incidence, and the look-up of the environment for the light that these
-/// microfacets reflect, along mix(mirror direction, normal, lean).
+/// A node of the quadrature: an angle of incidence, and an environment look-up for the light that microfacets under
+/// this angle reflect, in direction mix(mirror direction, normal, lean).
 struct LobeNode {
     double cosine = 1.0;
     double weight = 0.0;  ///< the weights of a lobe sum to 1

@@ -77,7 +77,7 @@ namespace {
 
 using std::numbers::pi;
 
-/// Counts components that are no radiance and sets them to 0. A texel counts once, for its worst component.
+/// Sets components that are no radiance to 0 and counts their texels, each once: as NaN, else infinite, else negative.
 InvalidTexelCounts clean(image::Image& image) {
     InvalidTexelCounts report;
     for (glm::vec3& texel : image.texels) {
@@ -215,19 +215,20 @@ glm::dvec3 angular_map_radiance(const image::Image& image, const glm::dvec3& d) 
                 inner = texel;
             }
         }
-    // At the very rim the texels inside may have no weight: then the nearest of them.
+    // At the very rim the texels inside the disc may have no weight; then the nearest of them is returned.
     return total > 1e-6 ? sum / total : inner;
 }
 
-/// An image that is the same in all directions. Its 64 rows bring sums over texels' centres within 4e-4 of
-/// integrals in four bands (measured).
+/// An image that is the same in all directions. With its 64 rows, sums over texel centres differ from integrals in four
+/// bands by at most 4e-4 (measured).
 image::Image everywhere(const glm::vec3& radiance, Mapping mapping) {
     constexpr int kRows = 64;
     const int columns = mapping == Mapping::Angular ? kRows : 2 * kRows;
     return {columns, kRows, std::vector<glm::vec3>(static_cast<std::size_t>(columns * kRows), radiance)};
 }
 
-/// Weight of texel i of `count` in each new texel that it overlaps: calls add(new texel, overlap in texels).
+/// For texel i of `count`, resampled to `new_count`: calls add(k, overlap) for each new texel k that it overlaps. The
+/// overlap is in new texels.
 template <typename Add>
 void spread(int i, int count, int new_count, const Add& add) {
     const double scale = static_cast<double>(new_count) / count;

@@ -22,9 +22,9 @@ enum class Mapping {
 Mapping parse_mapping(const std::string& name);
 const char* mapping_name(Mapping mapping);
 
-/// The mapping of an image. One that is not square is equirectangular. A square one is an angular map if it is black
-/// outside its inscribed circle; up to a tenth of the corner texels may be bright (captions). Any other square
-/// image is ambiguous, except a single texel: throws Error (input) that names `file`.
+/// The mapping of an image. An image that is not square, or is a single texel, is equirectangular. A square one is an
+/// angular map if it is black outside its inscribed circle; up to a tenth of the corner texels may be bright
+/// (captions). Any other square image is ambiguous: throws Error (input) that names `file`.
 Mapping detect_mapping(const image::Image& image, const std::string& file);
 
 /// Texels with an invalid component, which was set to 0 when the probe was made.
@@ -70,11 +70,11 @@ class ProbeImage {
     InvalidTexelCounts report_;
 };
 
-/// Reads a .hdr or .exr file. Logs a warning for texels that were set to 0, and for a square image that is
-/// read as equirectangular, which is more likely an angular map. Throws Error (input).
+/// Reads a .hdr or .exr file and logs the warnings of warn_about(). Throws Error (input).
 ProbeImage load_probe_image(const std::filesystem::path& path, Mapping mapping);
 
-/// Logs that texels were set to 0, or that the mapping is doubtful.
+/// Logs warnings that name `file`: of invalid texels (report()), and of a square image that is read as equirectangular,
+/// which is more likely an angular map.
 void warn_about(const ProbeImage& probe, const std::string& file);
 
 /// The size that an equirectangular image of `width` × `height` texels is resampled to. Its texels have an aspect ratio

@@ -59,8 +59,8 @@ struct FullResolutionProbe {
     int key_lights = 16;  ///< the most that it is cooked with
 };
 
-/// Reads a probe recipe (.json) or an image; `mapping` of images: as for parse_mapping(). Takes seconds. Throws Error
-/// (input).
+/// Reads a probe recipe (.json) or an image. `mapping` is an image's, as for parse_mapping(); recipes do not use it.
+/// Takes seconds. Throws Error (input).
 FullResolutionProbe load_full_resolution_probe(const std::filesystem::path& path, const std::string& mapping);
 
 }  // namespace rowland::lighting

@@ -107,7 +107,7 @@ void add_sun(const ClearSkyRecipe& recipe, image::Image& image) {
             solid_angle += fraction * texel_solid_angle(row, image.width);
         }
     ROWLAND_CHECK_OP(solid_angle, >, 0.0);
-    // Over the solid angle of the covered texels: exact irradiance at any resolution.
+    // Division by the solid angle that is covered makes the irradiance exact at any resolution.
     const glm::dvec3 radiance = sun_irradiance(recipe) / solid_angle;
     for (const Covered& texel : covered) image.at(texel.column, texel.row) += glm::vec3(texel.fraction * radiance);
 }

@@ -40,8 +40,8 @@ glm::dvec3 sky_radiance(const ClearSkyRecipe& recipe, const glm::dvec3& directio
 /// appendix A.1].
 glm::dvec3 sun_irradiance(const ClearSkyRecipe& recipe);
 
-/// Equirectangular image of `width` × `width`/2 texels: sky, ground as a diffuse reflector of sky and sun, and an
-/// anti-aliased sun's disc, scaled to the exact irradiance.
+/// Equirectangular image of `width` × `width`/2 texels, `width` a multiple of 4: the sky, the ground as a diffuse
+/// reflector of sky and sun, and the sun's anti-aliased disc, scaled to the exact irradiance.
 image::Image render_clear_sky(const ClearSkyRecipe& recipe, int width);
 
 /// A rectangular light, given by the angles under which the object sees it.

@@ -39,8 +39,8 @@ constexpr std::size_t kPartialSums = 4;
 
 constexpr std::size_t kRowsPerTask = 16;
 
-/// Fourier moments of one row over φ = 0 … 2π from the middle column: Σ L cos mφ for m ≥ 0, Σ L sin mφ for m < 0, at
-/// index m + bands − 1.
+/// Fourier moments of one row, with φ = 0 at its middle: Σ L cos mφ for m ≥ 0, Σ L sin |m|φ for m < 0, at index
+/// m + bands − 1.
 using Moments = std::vector<glm::dvec3>;
 
 /// cos(mφ) and sin(mφ), m < bands, of the columns right of the middle, φ ≥ 0; zeros up to `padded`.
@@ -126,8 +126,8 @@ std::vector<Moments> all_row_moments(const image::Image& image, const Waves& wav
 }
 
 /// In a frame whose polar axis is the image's, Y_lm is a Legendre function of the row times cos mφ or sin mφ of the
-/// column: 2n−1 sums a texel instead of n², over folded rows, then one rotation into world axes. Sums are in double and
-/// in fixed order.
+/// column. So n bands take 2n − 1 sums per texel instead of n², over folded rows, and one rotation into world axes.
+/// Sums are in double and in fixed order.
 std::vector<glm::dvec3> project_equirectangular(const ProbeImage& probe, int bands) {
     const image::Image& image = probe.image();
     const Waves waves(image.width, bands);
@@ -179,7 +179,7 @@ RowSum sum_rows(const ProbeImage& probe, int first, int end, int bands) {
 }
 
 std::vector<glm::dvec3> project_angular(const ProbeImage& probe, int bands) {
-    constexpr int kRows = 16;  // a block: few enough sums to keep, whatever the number of threads
+    constexpr int kRows = 16;  // per block; the blocks do not depend on the number of threads
     const int height = probe.image().height;
     std::vector<RowSum> blocks(to_size((height + kRows - 1) / kRows));
     parallel_for(blocks.size(), [&](std::size_t i) {

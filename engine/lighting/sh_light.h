@@ -16,7 +16,8 @@ struct ShLight {
     std::vector<glm::dvec3> coefficients;  ///< bands², index l(l+1)+m
 };
 
-/// The light in exactly `bands` ≥ 1 bands, under a window over those it has: more are dropped, missing ones are 0.
+/// The light in exactly `bands` ≥ 1 bands: higher bands are dropped, missing ones are 0. The window spans the bands
+/// that the light has among these.
 ShLight limit_bands(const ShLight& light, int bands, math::SphericalWindow window = math::SphericalWindow::None);
 
 /// Raw radiance SH coefficients of a probe, in double, weighted by solid angles that are normalised to sum to 4π;

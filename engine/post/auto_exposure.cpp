@@ -62,7 +62,7 @@ std::size_t AutoExposurePass::index_of(std::size_t age) const {
 MeanLog2Luminance AutoExposurePass::read(std::size_t age) {
     glm::vec2 total(0.0F);
     std::memcpy(&total, &totals_.mapping()[index_of(age) * gpu::kBufferAlignment], sizeof(total));
-    // Older ones are out of date.
+    // Results of older measurements are not used any more.
     for (; age < kMaxInFlight; ++age) finished_[index_of(age)].reset();
     if (total.g == 0.0F) return std::nullopt;
     return double{total.r} / double{total.g};

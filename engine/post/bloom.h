@@ -62,7 +62,8 @@ class BloomPass {
 /// The sizes of the blur's levels, finest first: at least one, and none beyond 1×1.
 std::vector<glm::ivec2> bloom_level_sizes(glm::ivec2 picture, int levels);
 
-/// The weight of the coarser levels in level `index` of `count` on the way up, which makes the result their mean.
+/// The weight of the coarser levels when level `index` of `count` is mixed on the way up. With it the result is the
+/// mean of all levels.
 float bloom_coarser_weight(std::size_t index, std::size_t count);
 
 /// A logic error if strength or levels are out of range.

@@ -16,7 +16,8 @@ constexpr double agx_least_stop = -12.47393;  ///< log2: 10 stops below 0.18
 constexpr double agx_most_stop = 4.026069;    ///< 6.5 stops above
 constexpr double agx_gamma = 2.2;
 
-/// The sigmoid of slope 2 through (10 / 16.5, 0.5) with a toe of power 3 and a shoulder of power 3.25; 0 to 1.
+/// The sigmoid of slope 2 through (10 / 16.5, 0.5) with a toe of power 3 and a shoulder of power 3.25, from 0 … 1 to 0
+/// … 1.
 double agx_curve(double x);
 
 /// A rendering for displays of Rec.709 primaries that keeps the Oklab hue of every light and clips no channel. From
@@ -26,8 +27,9 @@ double agx_curve(double x);
 ///   lightness; for darker ones it approaches the largest Rec.709 component, so that saturated colours stay dark
 ///   enough for the display to show them saturated. The two are equal for neutrals.
 /// - Chroma follows the local contrast of the curve, as film's does: more in the shadows, less in the highlights.
-/// - Gamut: chroma up to 65 % of what the display has at that lightness and hue stays; beyond, it is compressed to
-///   below all of it. White has none, so very bright lights of any colour become white smoothly.
+/// - Gamut: chroma up to 65 % of the display's largest at that lightness and hue is kept; larger chroma is compressed
+/// to
+///   less than that largest one. At white the latter is 0, so very bright lights of any colour become white smoothly.
 glm::dvec3 constant_hue(const glm::dvec3& lms);
 
 /// The tone curve: x^g / (x^g + k) [Naka & Rushton 1966, S-potentials from colour units in the retina of fish], through

@@ -9,15 +9,15 @@
 
 namespace rowland::post {
 
-/// A thin lens in front of a sensor that is 24 mm high, in focus at one distance. Elsewhere a point is a disc of the
-/// aperture's shape, a circle.
+/// A thin lens with a round aperture in front of a sensor that is 24 mm high. Points at other distances than the focus
+/// become discs.
 struct DepthOfFieldSettings {
     float f_number = 2.8F;              ///< focal length over the aperture's diameter, 0.5 to 64
-    std::optional<float> focus_m = {};  ///< along the camera's axis, above the focal length; null: the camera's target
+    std::optional<float> focus_m = {};  ///< along the camera's axis, above 0; null: the camera's target
     float most_blur = 0.03F;            ///< radius of the largest disc in picture heights, above 0, at most 0.1
 };
 
-/// What of the camera the blur depends on.
+/// The camera's parameters that the blur depends on.
 struct LensView {
     float vertical_fov = 0.7F;  ///< radians, in (0, pi)
     float near_plane = 0.01F;   ///< metres
@@ -27,13 +27,13 @@ struct LensView {
 
 /// Radius of a point's disc in picture heights, negative nearer than the focus, unclamped:
 ///   f^2 / (2 N h (focus - f)) * (distance - focus) / distance,  f = h / (2 tan(fov / 2)),  h = 24 mm.
-/// A focus within 1.1 f counts as there.
+/// A focus nearer than 1.1 f counts as 1.1 f.
 float blur_radius(const DepthOfFieldSettings& settings, const LensView& view, float distance_m);
 
-/// Gathers for each pixel what of its surroundings is spread over it: samples on a golden spiral that is as wide as the
-/// widest disc nearby, each from the level of a mip chain that fills the space between them. Light keeps its energy but
-/// where discs of different distance meet. What lies nearer than the pixel's surface covers it; of what lies behind, no
-/// more than twice the surface's own disc is seen, so that sharp edges stay sharp.
+/// Gathers for each pixel the light that the lens spreads over it, by samples on a golden spiral as wide as the widest
+/// disc nearby. A sample reads the mip level whose texels fill the space between samples. Energy is conserved except
+/// where discs of different distances meet. Nearer surfaces cover the pixel's own. The discs of farther ones count as
+/// at most twice as wide as the disc of the pixel's own, so that sharp edges stay sharp.
 class DepthOfFieldPass {
  public:
     /// `library` must hold post::shader_files().

@@ -27,8 +27,8 @@ DisplaySelection resolve(const OcioConfig& config, DisplaySelection selection) {
     return selection;
 }
 
-/// What a view transform makes of NaN and infinities differs between OpenColorIO's CPU and GPU code (an infinite
-/// highlight comes out black, or as NaN), so they are replaced on the way in.
+/// Replaces NaN and infinities, for which view transforms give different values in OpenColorIO's CPU and GPU code (an
+/// infinite highlight comes out black, or as NaN).
 glm::vec3 displayable(const glm::vec3& colour) {
     const auto component = [](float value) {
         return std::isnan(value) ? 0.0F : std::clamp(value, -largest_half, largest_half);
@@ -86,7 +86,7 @@ constexpr const char* fragment_shader = "engine/post/shaders/display.frag.glsl";
 constexpr unsigned first_lut_unit = 1;  // unit 0 is the picture
 
 gpu::Sampling sampling_of(OCIO::Interpolation interpolation) {
-    // A tetrahedral look-up fetches the corners itself.
+    // The shader of a tetrahedral look-up interpolates between texels itself.
     const bool nearest = interpolation == OCIO::INTERP_NEAREST || interpolation == OCIO::INTERP_TETRAHEDRAL;
     return {.filter = nearest ? gpu::Filter::Nearest : gpu::Filter::Linear};
 }

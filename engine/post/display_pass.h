@@ -49,10 +49,10 @@ class DisplayTransform {
 /// A DisplayTransform on the GPU. Exposure is a uniform; a program is built only when the transform's code changes.
 class DisplayPass {
  public:
-    /// `library` must hold post::shader_files().
+    /// `library` must hold post::shader_files(). Throws as set_transform() does.
     DisplayPass(const gpu::ShaderLibrary& library, const DisplayTransform& transform);
 
-    /// Shows another display or view from now on.
+    /// Shows another display or view from now on. Throws Error (input) if OpenColorIO cannot run it on the GPU.
     void set_transform(const gpu::ShaderLibrary& library, const DisplayTransform& transform);
 
     /// Writes display values for the scene-linear `source` (RGBA16F or RGBA32F), pixel by pixel; alpha is kept. The

@@ -62,7 +62,7 @@ namespace {
 
 constexpr float kFinestCell = 2.0F;    ///< pixels; finer ones would be sampled unevenly by the pixels
 constexpr float kCoarsestCell = 3.0F;  ///< pixels, as far as the transforms allow
-constexpr int kMargin = 6;             ///< cells: the splines, the picture's edges
+constexpr int kMargin = 6;             ///< cells, for the width of the splines and the picture's edges
 constexpr int kShortestPeriod = 32;
 
 int period_for(float cells, int largest) {
@@ -78,7 +78,7 @@ GlareGrid glare_grid(glm::ivec2 picture, glm::vec2 tan_half_fov, glm::vec2 reach
     glm::vec2 extent;
     for (int axis = 0; axis < 2; ++axis) {
         extent[axis] = 2.0F * tan_half_fov[axis] / std::sqrt(1.0F + tan_half_fov[axis] * tan_half_fov[axis]);
-        // Offsets beyond the picture's own size leave it from everywhere.
+        // Offsets above the picture's size move all light out of it.
         const float filled = extent[axis] + std::min(reach[axis], extent[axis]);
         grid.period[axis] =
             period_for(filled / (kCoarsestCell * pixel) + static_cast<float>(kMargin), kLargestGlarePeriod[axis]);
@@ -117,17 +117,17 @@ gpu::Texture twiddles(int length) {
     return texture;
 }
 
-/// Of real pictures, so half of the frequencies along x.
-gpu::Texture layers_of_spectra(glm::ivec2 period, gpu::Format format, int layers) {
+/// Layers for spectra of real pictures, which half of the frequencies along x determine.
+gpu::Texture layers_of_spectra(glm::ivec2 period, int layers) {
     return gpu::Texture({.kind = gpu::TextureKind::PlaneArray,
-                         .format = format,
+                         .format = gpu::Format::RG32F,
                          .width = period.x / 2 + 1,
                          .height = period.y,
                          .depth = layers},
                         {.filter = gpu::Filter::Nearest});
 }
 
-glm::mat2 turn_by(float angle) {
+glm::mat2 rotation_by(float angle) {
     return {std::cos(angle), std::sin(angle), -std::sin(angle), std::cos(angle)};
 }
 
@@ -147,8 +147,8 @@ GlarePass::Transform::Transform(const gpu::ShaderLibrary& library, glm::ivec2 si
       rows_back(fourier(library, rows_back_shader, size.x, 1)),
       row_twiddles(twiddles(size.x)),
       column_twiddles(twiddles(size.y)),
-      spectrum(layers_of_spectra(size, gpu::Format::RG32F, 3)),
-      kernel(layers_of_spectra(size, gpu::Format::RG32F, 9)) {}
+      spectrum(layers_of_spectra(size, 3)),
+      kernel(layers_of_spectra(size, 9)) {}
 
 GlarePass::GlarePass(const gpu::ShaderLibrary& library)
     : library_(&library),
@@ -163,7 +163,7 @@ void GlarePass::transform_rows(const gpu::Texture& cells) const {
 }
 
 void GlarePass::transform_kernel(const GlareGrid& grid) {
-    const std::vector<glm::mat3> kernel = glare_kernel(*sheet_->pattern, turn_by(sheet_->angle), grid);
+    const std::vector<glm::mat3> kernel = glare_kernel(*sheet_->pattern, rotation_by(sheet_->angle), grid);
     gpu::Texture of_channel({.format = gpu::Format::RGBA32F, .width = grid.period.x, .height = grid.period.y});
     std::vector<glm::vec3> out(kernel.size());
     for (int channel = 0; channel < 3; ++channel) {
@@ -180,7 +180,7 @@ void GlarePass::transform_kernel(const GlareGrid& grid) {
 
 void GlarePass::hold(const GlareSettings& settings) {
     if (sheet_ && sheet_->pattern == settings.pattern && sheet_->angle == settings.angle) return;
-    sheet_ = Sheet{settings.pattern, settings.angle, reach_of(*settings.pattern, turn_by(settings.angle))};
+    sheet_ = Sheet{settings.pattern, settings.angle, reach_of(*settings.pattern, rotation_by(settings.angle))};
     grid_.reset();
 }
 

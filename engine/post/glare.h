@@ -27,8 +27,8 @@ struct GlarePattern {
     std::vector<Point> points;
 };
 
-/// The square cells that glare is computed on: even in direction cosines, where a diffraction pattern is the same
-/// everywhere. Cell (i, j) is centred at ((i, j) − (cells − 1) / 2) · cell.
+/// The square cells that glare is computed on. They are uniform in direction cosines, in which a diffraction pattern is
+/// shift-invariant. Cell (i, j) is centred at ((i, j) − (cells − 1) / 2) · cell.
 struct GlareGrid {
     glm::ivec2 cells{0};   ///< that cover the picture
     glm::ivec2 period{0};  ///< of the Fourier transform, powers of two; large enough that light that leaves the picture
@@ -38,8 +38,8 @@ struct GlareGrid {
     friend bool operator==(const GlareGrid&, const GlareGrid&) = default;
 };
 
-/// The longest transforms. OpenGL promises 1024 invocations and 32 KiB shared by them: a row in one colour channel, a
-/// column in three.
+/// The longest transforms, within the 1024 invocations and the 32 KiB of shared memory that OpenGL guarantees: a row is
+/// transformed in one colour channel at a time, a column in all three.
 inline constexpr glm::ivec2 kLargestGlarePeriod{2048, 1024};
 
 /// Cells of 2 to 3 pixels, or larger ones where the transforms would be too long. `tan_half_fov`: of the horizontal and
@@ -67,8 +67,8 @@ struct GlareSettings {
 /// Replaces the bright light B of a scene-linear picture L by its undiffracted and its diffracted part:
 ///     L − B + straight · B + Σ_points weight · B(direction cosines − offset).
 /// Diffraction shifts direction cosines by the same amount everywhere [Harvey & Vernold 1998]. So the bright light is
-/// resampled to a grid that is even in them (GlareGrid), and convolved with the pattern by the Fourier transform: the
-/// cost does not depend on the number of points.
+/// resampled to a grid that is uniform in them (GlareGrid), and convolved with the pattern by the Fourier transform:
+/// the cost does not depend on the number of points.
 ///
 /// Energy, with pixels weighted by cos⁴ of their angle to the axis (their area in direction cosines), is kept to 1e-2;
 /// light that leaves the picture is lost, and light from outside is missing. The grid blurs diffracted light by 0.87
@@ -79,16 +79,17 @@ class GlarePass {
     /// `library` must hold post::shader_files() and outlive the pass.
     explicit GlarePass(const gpu::ShaderLibrary& library);
 
-    /// Writes the picture with glare; alpha is kept. `threshold` is that of the picture as it is, not exposed. Source
-    /// (RGBA16F or RGBA32F) and target have the same size, else it is a logic error. Transforms the pattern when it,
-    /// the sheet's angle, the field of view or the size changes, and compiles programs when that changes the period.
+    /// Writes the picture with glare; alpha is kept. `threshold`, in units of the picture before exposure, is used in
+    /// place of settings.threshold. Source (RGBA16F or RGBA32F) and target have the same size, else it is a logic
+    /// error. Transforms the pattern when the pattern, the sheet's angle, the field of view or the size changes, and
+    /// compiles programs when that changes the period.
     void draw(const gpu::Texture& source, const GlareSettings& settings, float threshold,
               const gpu::Framebuffer& target);
 
     static constexpr int passes() { return 5; }
 
  private:
-    /// What a period needs.
+    /// Programs and textures for one period.
     struct Transform {
         Transform(const gpu::ShaderLibrary& library, glm::ivec2 size);
 
@@ -102,7 +103,7 @@ class GlarePass {
         gpu::Texture spectrum;  ///< a layer per channel: after rows only, then after both
         gpu::Texture kernel;    ///< spectrum; layer 3 · channel in + channel out
     };
-    /// A pattern as it is held.
+    /// The pattern, and how the sheet is held.
     struct Sheet {
         std::shared_ptr<const GlarePattern> pattern;
         float angle = 0.0F;

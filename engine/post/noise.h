@@ -11,21 +11,21 @@
 namespace rowland::post {
 
 /// Noise of at most half a quantisation step, against bands in slow gradients. It is uniform in the open interval of ±½
-/// step, so that the mean of the rounded values is the value: the fractional parts of an additive recurrence over
-/// pixels with the 2D golden ratio (Roberts 2018, "The unreasonable effectiveness of quasirandom sequences"), which
-/// fills small areas as evenly as blue noise; frames advance by the golden ratio. 0 and 1 round to themselves.
+/// step, so that the mean of the rounded values is the value; 0 and 1 round to themselves. It is the fractional part of
+/// an additive recurrence over pixels with the 2D golden ratio (Roberts 2018, "The unreasonable effectiveness of
+/// quasirandom sequences"), which fills small areas as evenly as blue noise; frames advance by the golden ratio.
 struct DitherSettings {
     int bits = 8;  ///< of a channel of the target, 1 to 12
 };
 
-/// Film grain: another in each frame, of mean 0, a pixel and a half wide. At a display value of mean y over the channels
-/// its standard deviation is strength · 2√(y (1 − y)), so that black and white have none.
+/// Film grain of mean 0, different in each frame, a pixel and a half wide. At a display value of mean y over the
+/// channels its standard deviation is strength · 2√(y (1 − y)), so that black and white have none.
 struct GrainSettings {
     float strength = 0.015F;  ///< 0 to 0.5
 };
 
-/// The last pass: adds noise to display values, the same in all channels so that greys stay grey. It depends on pixel
-/// and frame alone, on every machine.
+/// The last pass: adds noise to display values, the same in all channels so that greys stay grey. Its random numbers
+/// depend on pixel and frame alone and are the same on every machine.
 class NoisePass {
  public:
     /// `library` must hold post::shader_files().

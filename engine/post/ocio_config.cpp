@@ -185,7 +185,7 @@ bool is_scene_space(const OcioConfig& config, const char* role) {
     return config.ocio()->getColorSpace(role)->getReferenceSpaceType() == OCIO::REFERENCE_SPACE_SCENE;
 }
 
-/// ACEScg → scene_linear as OpenColorIO sees it.
+/// ACEScg → scene_linear by OpenColorIO.
 OCIO::GroupTransformRcPtr acescg_to_scene_linear_transform(const OcioConfig& config) {
     OCIO::GroupTransformRcPtr group = OCIO::GroupTransform::Create();
     group->appendTransform(builtin_transform("ACEScg_to_ACES2065-1"));
@@ -202,7 +202,7 @@ OCIO::GroupTransformRcPtr acescg_to_scene_linear_transform(const OcioConfig& con
     return group;
 }
 
-/// The images of the unit vectors, if the processor maps a further vector as their matrix does.
+/// The processor as a matrix, found from the images of the unit vectors; null if it maps a further vector otherwise.
 std::optional<glm::dmat3> as_matrix(const OCIO::ConstCPUProcessorRcPtr& processor) {
     const auto image = [&](glm::vec3 value) {
         processor->applyRGB(&value.x);

@@ -56,8 +56,8 @@ class OcioConfig {
     std::string preferred_view_;
 };
 
-/// The classic locale while it lives. OpenColorIO reads and writes numbers in the global one, which in an application
-/// may have a decimal comma. To be used while no other thread changes or needs the locale.
+/// Sets the classic locale during its lifetime. OpenColorIO reads and writes numbers in the global locale, which in an
+/// application may have a decimal comma. To be used while no other thread changes or needs the locale.
 class ClassicLocale {
  public:
     ClassicLocale() : c_(std::setlocale(LC_ALL, nullptr)), before_(std::locale::global(std::locale::classic())) {}
@@ -77,14 +77,14 @@ class ClassicLocale {
 std::span<const EmbeddedFile> shipped_config_file();
 
 /// The matrix from CIE XYZ (white colour::white_d65()) to the working space, which is the configuration's scene_linear
-/// role; white stays neutral. ACEScg by colour::xyz_to_acescg(), then what OpenColorIO says by way of the role
-/// aces_interchange, else of cie_xyz_d65_interchange if that is a scene space. A configuration without either does not
-/// say what its colours are: ACEScg is assumed, with a warning in the log. Good to float precision, 1e-6. Throws Error
-/// (input) if scene_linear is missing or is not linear.
+/// role; white stays neutral. It is the product of colour::xyz_to_acescg() and OpenColorIO's matrix from ACEScg through
+/// the role aces_interchange, or else cie_xyz_d65_interchange, whichever is a scene space. A configuration with neither
+/// does not say what its colours are: ACEScg is assumed, with a warning in the log. Good to float precision, 1e-6.
+/// Throws Error (input) if scene_linear is missing or is not linear.
 glm::dmat3 xyz_to_scene_linear(const OcioConfig& config);
 
 /// Luminance as a weighted sum of scene_linear components: the Y row of the inverse of xyz_to_scene_linear. White has
-/// luminance 1. Throws as that does.
+/// luminance 1. Throws as xyz_to_scene_linear() does.
 glm::vec3 luminance_weights(const OcioConfig& config);
 
 }  // namespace rowland::post

@@ -73,7 +73,7 @@ float PostStack::automatic_stops(const gpu::Texture& picture, const PostSettings
     const gpu::PassTimes::Scope scope(times_, "auto exposure");
     AutoExposurePass& pass = made(auto_exposure_, *library_);
     const bool waits = settings.wait_for_exposure || !automatic_stops_;
-    // Of earlier frames: never this one's, however fast the GPU is.
+    // Taken before this frame's measurement starts, so that it is an earlier frame's, however fast the GPU is.
     std::optional<MeanLog2Luminance> measured = pass.take();
     pass.start(picture, frame.luminance_weights, automatic.darkest);
     passes_ += pass.passes();
@@ -99,7 +99,7 @@ const gpu::Texture& PostStack::with_vignette(const gpu::Texture& picture, const 
 
 void PostStack::draw_display(const gpu::Texture& picture, const DisplayPass& display, const PostSettings& settings,
                              const PostFrame& frame, const gpu::Framebuffer& target) {
-    // For noise sixteen bits, as half floats near 1 are no finer than an eighth of an 8-bit step.
+    // Noise needs 16 fixed-point bits: half floats near 1 are no finer than an eighth of an 8-bit step.
     const bool noisy = settings.grain || settings.dither;
     const gpu::Framebuffer& displayed = noisy ? sized(displayed_, target.size(), gpu::Format::RGBA16) : target;
     {
@@ -135,7 +135,7 @@ void PostStack::draw(const gpu::Texture& hdr, const DisplayPass& display, const 
     const gpu::Texture& focused = with_depth_of_field(hdr, settings, frame);
     const gpu::Texture& bloomed = with_bloom(with_glare(focused, settings), settings);
     exposure_stops_ = settings.exposure_stops + automatic_stops(bloomed, settings, frame);
-    // Exposure is a factor and so is the vignette: the display pass exposes at no extra cost, to the same effect.
+    // Exposure and vignette are factors, so their order is free: the display pass exposes, at no extra cost.
     draw_display(with_vignette(bloomed, settings), display, settings, frame, target);
 }
 

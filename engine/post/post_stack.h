@@ -29,12 +29,12 @@ struct PostSettings {
     std::optional<GlareSettings> glare = {};
     std::optional<BloomSettings> bloom = {};
     std::optional<AutoExposureSettings> auto_exposure = {};
-    /// Automatic exposure is for this very picture, and each frame waits for the GPU. Otherwise it is for the picture
-    /// one or two frames before, and only the first frame waits.
+    /// If true, automatic exposure measures the frame that it exposes, and each frame waits for the GPU. Otherwise it
+    /// uses the luminance of one or two frames before, and only the first frame waits.
     bool wait_for_exposure = false;
     float exposure_stops = 0.0F;  ///< added to the automatic exposure, if that is on
     std::optional<VignetteSettings> vignette = {};
-    /// Both clamp values to 0 to 1; turn them off for comparisons.
+    /// Grain and dither clamp values to 0 … 1; turn both off for comparisons.
     std::optional<GrainSettings> grain = {};
     std::optional<DitherSettings> dither = {};
 };
@@ -71,8 +71,8 @@ class PostStack {
     /// Rebuilds the programs in use from `library`, which replaces the present one. If one does not compile, all stay
     /// as they were and its Error (system) is thrown.
     void reload(const gpu::ShaderLibrary& library);
-    /// Where the time of each effect that runs is written: "glare", "bloom", "auto exposure", "vignette", "display",
-    /// "noise", "depth of field". Null, the default: nothing is timed. Must outlive the draws.
+    /// Times each effect that runs, by the names "depth of field", "glare", "bloom", "auto exposure", "vignette",
+    /// "display" and "noise". Null, the default: nothing is timed. `times` must outlive the draws.
     void set_pass_times(gpu::PassTimes* times) { times_ = times; }
 
  private:

@@ -1,5 +1,5 @@
-// What OpenGL's GLSL and GLSL ES 3.00 (WebGL 2) write differently. A ShaderLibrary puts this below #version.
-//   TEXTURE_UNIT(unit)          before a sampler. ES sets units by the samplers' names
+// What OpenGL's GLSL and GLSL ES 3.00 (WebGL 2) write differently. Shaders include this below #version.
+//   TEXTURE_UNIT(unit)          before a sampler; programs in ES set units by the samplers' names
 //   BLOCK_BINDING(point)        before a uniform block, likewise
 //   SAMPLER_LINE, LINE_LOD(name, x, level)  a texture of one row; in ES one of height 1
 //   STORAGE(point, block, type, name)  an array of vec4 of any length; in ES a texture of rows of 1024 texels
@@ -32,9 +32,8 @@ precision highp samplerCube;
 #define BUFFER_TEXEL(name, i) texelFetch(name, i)
 #endif
 
-// What is drawn into half floats. Drivers may truncate, which loses light pass by pass.
-
-// To the nearest of the half floats' normal numbers, ties to even.
+// Rounds to the nearest normal half float, ties to even. For values drawn into half floats: drivers may truncate, which
+// loses light in every pass.
 vec4 rounded_to_half(vec4 value) {
     uvec4 bits = floatBitsToUint(value);
     return uintBitsToFloat((bits + 0xfffu + ((bits >> 13) & 1u)) & 0xffffe000u);

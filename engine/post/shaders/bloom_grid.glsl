@@ -4,8 +4,8 @@
 
 layout(binding = 0) uniform sampler2D fine;
 
-// Components that are not finite count as 0, others are clamped to the half floats' range. By bits, because compilers may take isnan
-// for false.
+// Components that are not finite count as 0, others are clamped to the half floats' range. Bits are tested, because
+// compilers may assume that isnan is false.
 vec3 usable(vec3 colour) {
     bvec3 is_finite = lessThan(floatBitsToUint(colour) & 0x7fffffffu, uvec3(0x7f800000u));
     return clamp(mix(vec3(0.0), colour, is_finite), -65504.0, 65504.0);

@@ -1,5 +1,6 @@
 #version 450 core
-// Colour, and the radius in pixels of the disc that the lens makes of a point there; negative nearer than the focus.
+// Colour, and the radius in pixels of the disc that the lens makes of a point of the pixel's surface; negative nearer
+// than the focus.
 layout(location = 0) out vec4 disc;
 
 layout(binding = 0) uniform sampler2D scene_linear;

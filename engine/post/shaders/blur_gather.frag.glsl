@@ -1,5 +1,5 @@
 #version 450 core
-// What of a pixel's surroundings the lens spreads over it: depth_of_field.h.
+// The light that the lens spreads over each pixel: depth_of_field.h.
 #include "engine/gpu/shaders/dialect.glsl"
 
 layout(location = 0) out vec4 blurred;
@@ -15,7 +15,7 @@ const float PI = 3.14159265358979;
 const float PIXEL = 0.56418958;  // radius of a disc as large as a pixel
 const float SHARP = 0.75;        // up to this radius a disc is seen as a pixel
 
-// Of all discs that may reach the pixel, as none is wider than a tile.
+// Largest radius of the discs that may reach the pixel: none is larger than a tile's side.
 float widest_nearby(ivec2 pixel) {
     ivec2 last = textureSize(widest_in_tile, 0) - 1;
     float widest = 0.0;
@@ -38,7 +38,8 @@ void main() {
         float spacing = widest * sqrt(PI / float(samples));
         float level = log2(max(spacing, 1.0));
         vec2 size = vec2(textureSize(discs, 0));
-        // Light, and the fraction of the pixel that it covers: of nearer surfaces, and of the pixel's own and farther ones.
+        // Light and the fraction of the pixel that it covers, for nearer surfaces, and for the pixel's own and farther
+        // ones.
         vec4 front = vec4(0.0);
         vec4 behind = vec4(source.rgb, 1.0) / disc_area(max(abs(own), PIXEL));
         for (int i = 0; i < samples; ++i) {

@@ -8,8 +8,8 @@ vec2 tangents_of(vec2 cosines) {
     return cosines * inversesqrt(max(1.0 - dot(cosines, cosines), 1e-4));
 }
 
-// The pixels that may lie between two corners, given in direction cosines: tangents are monotonic in both, on either
-// side of the axes.
+// The range of pixels that may lie between two corners, given in direction cosines. The tangents are monotonic in both
+// cosines on either side of the axes.
 void pixels_between(vec2 low, vec2 high, out ivec2 first, out ivec2 last) {
     vec2 nearest = clamp(vec2(0.0), low, high);
     vec2 farthest = mix(low, high, greaterThan(abs(high), abs(low)));
@@ -22,7 +22,8 @@ void pixels_between(vec2 low, vec2 high, out ivec2 first, out ivec2 last) {
     last = ivec2(clamp(ceil(size * (0.5 + 0.5 * most / tan_half_fov) - 0.5), vec2(0.0), size - 1.0));
 }
 
-// Gathers the bright light of the pixels around a cell: the spline weight of this cell, over the cell's area.
+// Sums the bright light of the pixels around a cell, weighted by the cell's spline and by the pixel's area (cos⁴) over
+// the cell's, both in direction cosines.
 void main() {
     vec2 centre = floor(gl_FragCoord.xy);
     vec2 cosines = (centre - 0.5 * vec2(cells - 1)) * cell;

@@ -23,7 +23,7 @@ void store(int column, int row) {
         imageStore(kernel_out, ivec3(column, row, 3 * channel_in + channel), vec4(values[channel][row], 0.0, 0.0));
 }
 #else
-// Frequencies are in the same order in both.
+// Light and kernel hold the frequencies in the same order.
 void multiply(int column, int row) {
     vec2 light[3] = vec2[3](values[0][row], values[1][row], values[2][row]);
     for (int channel = 0; channel < 3; ++channel) {

@@ -7,7 +7,7 @@ layout(binding = 1) uniform sampler1D twiddles;
 
 shared vec2 values[CHANNELS][LENGTH];
 
-// All of the group have written what one of them reads next, and read what one of them overwrites.
+// Waits until all invocations of the group have written what others read next, and read what others overwrite.
 void synchronize() {
     memoryBarrierShared();
     barrier();

@@ -9,7 +9,7 @@ vec3 light(ivec2 at) {
     return all(lessThan(at, textureSize(cells_of_light, 0))) ? texelFetch(cells_of_light, at, 0).rgb : vec3(0.0);
 }
 
-// Two rows a, b of real numbers are transformed as a + ib.
+// Stores the spectra of two rows a, b of real numbers, which were transformed as a + ib.
 void store(int frequency, int row, int channel) {
     vec2 here = values[0][reversed(uint(frequency))];
     vec2 mirrored = values[0][reversed(uint((LENGTH - frequency) % LENGTH))];
@@ -19,7 +19,8 @@ void store(int frequency, int row, int channel) {
     imageStore(spectrum, ivec3(frequency, row + 1, channel), vec4(b, 0.0, 0.0));
 }
 
-// Every channel with an index that the compiler knows: NVIDIA's (580.159) takes the last for all in a loop that waits.
+// Called with a constant for each channel: in a loop over channels with barriers, NVIDIA's compiler (580.159) takes the
+// last one for all.
 void transform(int channel, vec2 left_value, vec2 right_value) {
     int row = int(2 * gl_WorkGroupID.x);
     int left = int(gl_LocalInvocationIndex);

@@ -6,7 +6,7 @@ layout(binding = 0, rg32f) uniform readonly image2DArray spectrum;
 layout(binding = 1, rgba32f) uniform writeonly image2D glare;
 uniform float scale;
 
-// The inverse of glare_rows.comp.glsl's two rows as one.
+// Combines the spectra of two rows a, b to that of a + ib: the inverse of store() in glare_rows.comp.glsl.
 void load(int frequency, int row, int channel) {
     vec2 a = imageLoad(spectrum, ivec3(frequency, row, channel)).xy;
     vec2 b = imageLoad(spectrum, ivec3(frequency, row + 1, channel)).xy;
@@ -14,7 +14,7 @@ void load(int frequency, int row, int channel) {
     values[0][reversed(uint(frequency))] = vec2(a.x - b.y, a.y + b.x);
 }
 
-// Two rows of one column: as many as the image has.
+// Writes two rows of one column, without what is outside the image.
 void store(int column, int row, vec3 a, vec3 b) {
     if (column >= imageSize(glare).x) return;
     imageStore(glare, ivec2(column, row), vec4(scale * a, 1.0));

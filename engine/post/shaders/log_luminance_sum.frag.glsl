@@ -2,7 +2,7 @@
 
 layout(location = 0) out vec2 sum_and_count;
 
-// Where the CPU reads the last pass's one texel.
+// The one texel of the last pass, for the CPU.
 layout(std430, binding = 0) writeonly buffer Total { vec2 total; };
 uniform bool is_total;
 
@@ -17,7 +17,7 @@ const int block = 8;  // as in auto_exposure.cpp
 vec2 logarithm_and_count(ivec2 position) {
 #if SOURCE_IS_PICTURE
     float luminance = dot(weights, texelFetch(source, position, 0).rgb);
-    // By bits, because compilers may take isnan and isinf for false.
+    // Bits are tested, because compilers may assume that isnan and isinf are false.
     bool is_finite = (floatBitsToUint(luminance) & 0x7fffffffu) < 0x7f800000u;
     return is_finite ? vec2(log2(max(luminance, darkest)), 1.0) : vec2(0.0);
 #else

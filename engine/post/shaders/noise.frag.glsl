@@ -7,7 +7,7 @@ uniform int frame;
 uniform float step_size;  // 0: no dither
 uniform float grain;      // 0: none
 
-// In steps of the target: noise.h.
+// Dither in steps of the target: noise.h.
 float dither_offset(uvec2 pixel) {
     // 2^32 over the plastic number 1.32471795724, over its square, and over the golden ratio.
     uint phase = pixel.x * 0xc13fa9a9u + pixel.y * 0x91e10da5u + uint(frame) * 0x9e3779b9u;
@@ -28,7 +28,8 @@ int grain_of(uvec2 pixel) {
     return int((bits & 255u) + ((bits >> 8) & 255u) + ((bits >> 16) & 255u) + (bits >> 24)) - 510;
 }
 
-// Of mean 0 and variance 1: the sum over 3x3 pixels weighted 1, 2, 1 either way, over its deviation, 6 times a pixel's.
+// Grain of mean 0 and variance 1: the sum over 3x3 pixels, weighted 1, 2, 1 either way, divided by its standard
+// deviation, which is 6 times that of one pixel.
 float grain_offset(uvec2 pixel) {
     int sum = 0;
     for (uint y = 0u; y < 3u; ++y)
