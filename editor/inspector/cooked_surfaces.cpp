@@ -23,7 +23,7 @@ std::string bake_key(Json extension, const diffraction::Material& material, cons
     return key;
 }
 
-/// The same of a film on a material of a scene. Which textures vary it does not matter.
+/// The same for a film on a material of a scene. Only whether a texture varies the thickness matters, not which one.
 std::string bake_key(Json extension, std::size_t material) {
     extension.erase("iridescenceFactor");
     extension.erase("iridescenceTexture");

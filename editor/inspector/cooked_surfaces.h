@@ -38,13 +38,13 @@ struct CookedSurface {
 using CookedSurfaces = std::vector<std::shared_ptr<const CookedSurface>>;
 
 /// Cooks the gratings and films of one document. The tables do not depend on the rotation of the grooves or the factor
-/// of a film, and are baked once. May be used from several threads at once.
+/// of a film, so an edit of these does not bake them again. May be used from several threads at once.
 class SurfaceCook {
  public:
     /// `scene` holds the textures; null for a material file.
     explicit SurfaceCook(std::shared_ptr<const SceneObject> scene) : scene_(std::move(scene)) {}
 
-    /// `material`: of the scene. Takes seconds. Throws Error (input) if the surface cannot be drawn.
+    /// `material`: its index in the scene. Takes seconds. Throws Error (input) if the surface cannot be drawn.
     std::shared_ptr<const CookedSurface> cook(const MaterialSource& source, std::size_t material = 0);
 
  private:
@@ -63,8 +63,8 @@ class SurfaceCook {
     Baked<thin_film::CookedFilm> films_;           ///< likewise
 };
 
-/// The cooked gratings and films of all materials of a scene. The chosen one is given; the others are cooked here, in
-/// the background, once each.
+/// The cooked gratings and films of all materials of a scene. That of the chosen material is passed to update(); the
+/// others are cooked here, in the background.
 class SceneSurfaces {
  public:
     using Source = std::shared_ptr<const MaterialSource>;

@@ -19,7 +19,7 @@ inline constexpr std::array kFileKinds = {FileKind::All,    FileKind::Materials,
 
 /// "materials (.json)".
 const char* file_kind_name(FileKind kind);
-/// Whether the name of a file is of the kind; All: of any other kind.
+/// Whether the extension of a file is of the kind; All: of any of the other kinds.
 bool is_of_kind(const std::filesystem::path& file, FileKind kind);
 
 struct ListedFile {

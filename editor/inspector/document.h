@@ -53,7 +53,7 @@ class NewTextures {
 struct MaterialSource {
     Json json;
     std::string name;  ///< of the file, for messages
-    /// A grating, without grooves on a mesh if it is a material file's; the film of a material file; that of a scene.
+    /// A grating (of a material file: without grooves on a mesh), the film of a material file, or the film of a scene.
     std::variant<diffraction::GltfGrating, thin_film::FilmMaterial, thin_film::GltfIridescence> parsed;
     NewTextures textures = {};  ///< that the material may use besides those of the file
 
@@ -73,7 +73,8 @@ std::shared_ptr<const MaterialSource> accept_extension(const Json& extension, co
                                                        const std::string& pointer = "",
                                                        const NewTextures* textures = nullptr);
 
-/// The material with its file names, which are relative to `from`, relative to `to`.
+/// The material with its relative file names rewritten from the folder `from` to the folder `to`. Throws Error (input)
+/// if a new name is not UTF-8.
 Json moved(Json material, const std::filesystem::path& from, const std::filesystem::path& to);
 
 /// Why the edited material is refused.
@@ -93,15 +94,17 @@ class Document {
     static Document open_as_new(const std::filesystem::path& path);
     /// A new material. Files that it names are relative to `folder`. Throws Error (input) naming `name`.
     static Document make_new(Json material, std::string name, std::filesystem::path folder);
-    /// The gratings and films of a scene: of its materials, then of the primitives `without_material`, which get a
-    /// material when they are saved with one. Chooses the first material with one, else the first. Throws Error (input)
-    /// if one is refused, or if a material has both.
+    /// Opens the gratings and films of a scene: those of its materials, then those of the primitives
+    /// `without_material`, which get a material once they are saved with a grating or a film. Chooses the first
+    /// material that has a grating or a film, else the first. Throws Error (input) if one is refused, or if a material
+    /// has both.
     static Document open_scene(scene::EditableGltf file, std::span<const scene::PrimitiveId> without_material = {});
 
     bool is_scene() const { return file_.has_value(); }
     /// The materials of the scene, 1 if it has none; 1 for a material file.
     std::size_t material_count() const { return slots_.size(); }
     std::size_t chosen() const { return chosen_; }
+    /// Does nothing if there is no such material.
     void choose(std::size_t material);
 
     /// The chosen material; null if it has neither a grating nor a film.
@@ -122,8 +125,8 @@ class Document {
     void revert(const Field& field);
     /// Replaces all members of the quality in one step.
     void replace_quality(const Json& quality);
-    /// Sets the grating or the film of the chosen material of a scene, an extension's object; null removes it. Throws
-    /// Error (input) naming `name` if it is refused.
+    /// Sets the grating or the film of the chosen material of a scene from an extension's object; null removes it.
+    /// Throws Error (input) naming `name` if the object is refused, and for the document of a material file.
     void set_extension(const Json& object, const std::string& name);
     void finish_edit() { editing_ = nullptr; }
 
@@ -152,15 +155,16 @@ class Document {
     const NewTextures& new_textures() const { return new_textures_; }
     NewTextures& new_textures() { return new_textures_; }
 
-    /// Writes the file completely or not at all. Throws Error: (input) if json() is refused or there is no path;
+    /// Writes the file completely or not at all. Throws Error: (input) if a material is refused or there is no path;
     /// (system) if the file cannot be written. The document is unchanged then. `over_changes`: overwrites
     /// the changes of another program to a scene file, which are an Error (input) otherwise.
     void save(bool over_changes = false);
-    /// Writes another file. Adapts the relative names of the files that the material names.
+    /// Writes another file and makes file names in the materials relative to its folder. Throws as save() does.
     void save_as(const std::filesystem::path& path);
     /// Writes unsaved edits, refused or not, to a new file when the program must end: cd.unsaved.json beside cd.json;
     /// for a new material into the current folder; into the temporary folder if that fails. Returns nullopt if there
-    /// are no edits. `earlier`: of an earlier call, which is replaced. Throws Error (system).
+    /// are no edits. `earlier`: the file of an earlier call, which is overwritten if it is in the same folder. Throws
+    /// Error (system).
     std::optional<std::filesystem::path> rescue(const std::optional<std::filesystem::path>& earlier = {}) const;
     /// Another number after each edit, undo or redo.
     std::size_t revision() const { return revision_; }
@@ -187,7 +191,7 @@ class Document {
     void reparse(Slot& slot) const;
     void require_accepted() const;
     void mark_saved();
-    /// The scene file with the gratings and films as edited, for a folder.
+    /// The scene file with the gratings and films as edited, the files that they name relative to `folder`.
     scene::EditableGltf edited_file(const std::filesystem::path& folder) const;
     void write(const std::filesystem::path& path, bool over_changes);
     void write_copy(const std::filesystem::path& path, const std::filesystem::path& folder) const;
@@ -205,13 +209,13 @@ class Document {
     NewTextures new_textures_;
 };
 
-/// Writes unsaved edits to a file of their own, a minute after the first that it does not hold, and removes the file
+/// Writes unsaved edits to a separate file, a minute after the first edit that this file lacks, and removes the file
 /// once nothing is unsaved.
 class Autosave {
  public:
     using Clock = std::chrono::steady_clock;
 
-    /// Call it often. `replacements`: how many documents there were before this one. Returns whether file() changed.
+    /// Call it often. `replacements`: the number of documents before this one. Returns whether file() changed.
     /// Throws Error (system).
     bool update(const Document& document, std::size_t replacements, Clock::time_point now);
     /// Writes the edits at once. Throws Error (system).

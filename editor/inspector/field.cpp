@@ -121,7 +121,7 @@ bool is_choice(const Json& value, const Choice& choice, const std::string& discr
 /// The value of the choice `to`. Members that `from` also has keep their values.
 Json carried_over(const Json& from, const Choice& to, const std::string& discriminator) {
     Json result = to.value;
-    // Of objects in a list the first ones stay; a list of one is written as an object.
+    // Of the layers of a film the first ones stay; several are a list, a single one is an object.
     const auto is_list = [](const Json& value) { return value.is_array() && !value.empty() && value[0].is_object(); };
     if (is_list(from) && result.is_object()) return from[0];
     if (is_list(result)) {
@@ -254,7 +254,7 @@ Json with_value(const Json& material, const Field& field, const Json& value) {
 
 namespace {
 
-/// The material, whose field was set, with the member that stands in place of it set or removed.
+/// The material after an edit of `field`, with the field's alternative removed or set.
 Json with_alternative(const Json& material, const Field& field) {
     if (field.alternative.empty()) return material;
     const Field other{.pointer = field.alternative, .label = {}};
@@ -280,7 +280,7 @@ Json with_choice(const Json& material, const Field& field, const std::string& na
     const auto found = std::find_if(field.choices.begin(), field.choices.end(),
                                     [&](const Choice& choice) { return choice.name == name; });
     ROWLAND_CHECK(found != field.choices.end(), fmt::format("{} has no choice {}", field.pointer, name));
-    // No profile suits both grooves and lattices.
+    // No profile suits both grooves and lattices, so another pattern replaces the whole grating.
     Json value = field.pointer == "/grating" ? found->value
                                              : carried_over(value_of(field, material), *found, field.discriminator);
     // The illuminant does not depend on the choice.

@@ -34,8 +34,7 @@ struct Choice {
     Json value;  ///< null: the member is left out
 };
 
-/// Whether the object of a sane material, of a file or of a scene's extension, is a film's and not a grating's. Null:
-/// neither.
+/// Whether a valid material object (of a file or a scene's extension) describes a film; false for a grating and null.
 bool holds_film(const Json& material);
 
 /// One field of a material file: label, range, tooltip and reset value of its control. Several fields may have the same
@@ -60,8 +59,8 @@ struct Field {
     /// always.
     std::string only_with{};
     std::vector<std::string> only_for{};
-    /// Of a choice: the member that stands in place of this one. A value removes it; no value sets it to
-    /// `alternative_value`, or leaves it alone if that is null.
+    /// Of a choice: the member that replaces this one. Setting this member removes the alternative; removing this
+    /// member sets the alternative to `alternative_value`, or leaves it alone if that is null.
     std::string alternative{};
     Json alternative_value{};
     /// Defaults by the choice of `only_with`; for other choices `default_value`.
@@ -72,14 +71,15 @@ struct Field {
 std::span<const Field> fields();
 /// The additional fields of a scene's grating: its grooves on the mesh.
 std::span<const Field> groove_fields();
-/// All fields of a film's material file, and of a scene's film.
+/// All fields of a film's material file.
 std::span<const Field> film_fields();
+/// All fields of a scene's film, KHR_materials_iridescence.
 std::span<const Field> iridescence_fields();
 
 /// The lists of fields that a material may show.
 std::vector<std::span<const Field>> fields_of(const Json& material);
 
-/// The first field at a JSON pointer, which must exist; gratings' come first.
+/// The first field at a JSON pointer, which must exist; the fields of gratings come first.
 const Field& field_at(std::string_view pointer);
 
 /// Whether the field applies to the material.
@@ -106,18 +106,18 @@ std::string choice_of(const Field& field, const Json& material);
 Json with_value(const Json& material, const Field& field, const Json& value);
 /// Sets the pitch and scales the width of a slit with it.
 Json with_pitch(const Json& material, double pitch_nm);
-/// Selects a choice. Members that both choices have keep their values.
+/// Selects a choice, which must exist. Members that both choices have keep their values, except for "/grating".
 Json with_choice(const Json& material, const Field& field, const std::string& name);
 /// Sets the field to its default.
 Json reverted(const Json& material, const Field& field);
 
-/// The number that a control shows for one of the file, and its inverse: degrees for radians, others as they are.
+/// The number that a control shows for a number of the file, and the inverse: radians as degrees, others unchanged.
 double shown_number(const Field& field, double stored);
 double stored_number(const Field& field, double shown);
-/// "°" for radians, others as they are.
+/// "°" for radians; other units unchanged.
 std::string shown_unit(const Field& field);
 
-/// "-2 -1, 1 2" or "all" as the value of an Orders field; other text is returned unchanged; the parser refuses it.
+/// "-2 -1, 1 2" or "all" as the value of an Orders field. Other text is returned unchanged, for the parser to refuse.
 Json parse_orders(std::string_view text);
 std::string format_orders(const Json& orders);
 

@@ -10,7 +10,7 @@
 
 namespace rowland::inspector {
 
-// What the tables of fields are composed of.
+// Building blocks of the tables of fields.
 
 inline Field plain(FieldKind kind, std::string pointer, std::string label, Json default_value, std::string help,
                    std::string source) {

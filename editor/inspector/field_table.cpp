@@ -176,7 +176,7 @@ Field side_field(const std::string& side, const Json& initial) {
         "the grating equation in two dimensions; " + std::string(kGoodman)));
 }
 
-/// Grooves that cross one of the sides.
+/// The fields of the grooves that repeat along one of the sides.
 std::vector<Field> crossed_fields(const std::string& side) {
     const std::vector<Field> profile =
         shown_for("/grating/profile", "crossed",
@@ -369,8 +369,8 @@ std::vector<Field> budget_fields() {
                      "240 views in eight parts; the largest error of a part counts")})});
 }
 
-/// Key lights of the representations that do not require them. Without a request, those that hold all light as SH use
-/// none, the others all.
+/// Key lights of the representations that do not require them. By default, representations that hold all light as SH
+/// use none, the others all.
 Field key_lights_field() {
     Field field = slider(
         Count, "/quality/key_lights", "Key lights", {0.0, lighting::kMaximumKeyLights}, lighting::kMaximumKeyLights,

@@ -53,7 +53,8 @@ std::vector<Field> stack_fields() {
     return all;
 }
 
-/// A base's metal, index and k, of members below `parent`. A scene's film may lie on its surface as it is.
+/// The fields of the base under a film, which are members of `parent`: a metal, or index and k. In a scene the base may
+/// also be the surface as it is.
 std::vector<Field> base_fields(const std::string& parent, bool in_scene) {
     const Json index = {{"ior", 1.5}};
     std::vector<Choice> metals = {{"none", nullptr}};

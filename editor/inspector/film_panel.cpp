@@ -50,7 +50,7 @@ void draw_angle_curves(const FilmCurves& curves) {
     }
 }
 
-/// From the top down: exact, table, glTF's formula.
+/// The colours over thickness in rows, from the top: exact, table, glTF's formula.
 void draw_swatch(const FilmCurves& curves, double thickness_nm) {
     const FilmColours& colours = curves.over_thickness;
     double top = 1e-9;

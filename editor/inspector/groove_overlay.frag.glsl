@@ -6,7 +6,7 @@ in vec3 world_normal;
 in vec4 world_tangent;
 in vec2 uv;
 
-uniform bool chosen;  // whether the surface's grooves are shown; others only cover it
+uniform bool chosen;  // whether the surface's grooves are shown; if not, it only hides others
 uniform mat4 world_to_clip;
 uniform vec2 size;         // of the picture, pixels
 uniform float cell;        // pixels

@@ -100,8 +100,9 @@ double radial_rotation(const glm::dvec2& at) {
 }
 
 struct FoilPattern {
-    double (*rotation)(const glm::dvec2& at);  ///< over π; `at`: from the lower left corner, in the picture's heights
-    int width = kSize;                         ///< texels
+    /// The rotation / π at a point from the lower left corner, in units of the picture's height.
+    double (*rotation)(const glm::dvec2& at);
+    int width = kSize;  ///< texels
 };
 
 FoilPattern pattern_of(std::string_view name) {

@@ -14,7 +14,7 @@ struct Layout {
     int width = 1280;
     int height = 800;
     float scale = 1.0F;         ///< of text and controls
-    float material_width = 22;  ///< of the column of fields; this and the next two in font heights
+    float material_width = 22;  ///< of the column of fields; this and the next two are in font heights
     float physics_width = 26;
     float price_height = 17;
     std::string shape = "disc";
@@ -27,8 +27,8 @@ struct Layout {
 /// Moves a file to the front of `recent`, which keeps ten.
 void remember(Layout& layout, const std::filesystem::path& path);
 
-/// Reads a layout. Missing members have their defaults, and numbers are clamped to their ranges. A missing or broken
-/// file gives the default layout and a warning.
+/// Reads a layout. Missing members have their defaults, and numbers are clamped to their ranges. A missing file gives
+/// the default layout. Wrong syntax or a member of another type is logged as a warning and ends the reading.
 Layout load_layout(const std::filesystem::path& path);
 
 /// Throws Error (system).

@@ -23,7 +23,7 @@ struct InspectedLight {
 };
 
 /// Loads a probe recipe (.json) or an image (.hdr, .exr; `mapping` "auto", "equirect" or "angular"). Runs on any
-/// thread; takes seconds. Throws Error (input).
+/// thread; takes seconds. Throws Error (input), also for a cooked .probe file.
 std::shared_ptr<const InspectedLight> load_light(const std::filesystem::path& path, const std::string& mapping);
 
 /// Takes over a result of background work. A failure becomes a message.

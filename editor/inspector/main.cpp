@@ -99,7 +99,7 @@ std::optional<Options> parse_options(int argc, const char* const* argv) {
     return options;
 }
 
-/// Ends the program with what the log has said.
+/// Ends the program with status 2; the log has the reason already.
 struct Refused {};
 
 /// Throws Refused if the last file of the command line was refused.
@@ -127,7 +127,7 @@ std::filesystem::path default_light(const std::vector<std::filesystem::path>& li
     return lights.front();
 }
 
-/// Of the captured probes, in the folder of cooked assets beside this program.
+/// The folder of the recipes of captured probes, among the cooked assets beside this program.
 std::filesystem::path capture_recipes() {
     return std::filesystem::read_symlink("/proc/self/exe").parent_path().parent_path() / "cooked" / "recipes";
 }
@@ -177,7 +177,7 @@ class WindowFrame {
     WindowFrame(const Options& options, const post::OcioConfig& config, Session& session, Layout& layout);
 
     Workbench& workbench() { return workbench_; }
-    /// `frame` as for ui::Ui; `keys`: whether shortcuts work; `frame_ms`: to show, 0: none.
+    /// `frame` as for ui::Ui; `keys`: whether shortcuts work and messages are shown; `frame_ms`: to show, 0: none.
     const gpu::Framebuffer& draw(const platform::InputState& input, bool keys, const ui::UiFrame& frame,
                                  double frame_ms);
 
@@ -275,7 +275,7 @@ void capture(const Options& options, const post::OcioConfig& config) {
     });
 }
 
-/// The inspector does not use game pads; every poll of the window adds an event of theirs.
+/// The inspector does not use game pads; every poll of the window adds a gamepad event.
 bool is_of_user(const platform::InputEvent& event) {
     return !std::holds_alternative<platform::GamepadEvent>(event);
 }

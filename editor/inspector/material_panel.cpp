@@ -58,7 +58,7 @@ void draw_refusal(const Refusal& refusal) {
     ImGui::PopTextWrapPos();
 }
 
-/// The next control follows the label that was just drawn.
+/// Puts the next control on the line of the label that was just drawn.
 void begin_control() {
     const float font = ImGui::GetFontSize();
     ImGui::SameLine(7.7F * font);
@@ -72,7 +72,7 @@ const char* section_of(const Field& field) {
     return field.pointer.starts_with("/quality") ? "Quality" : "Surface";
 }
 
-/// ImGui takes it for a format.
+/// For a name that ImGui takes as a format string.
 std::string without_percent(std::string name) {
     std::ranges::replace(name, '%', '_');
     return name;
@@ -119,8 +119,8 @@ void draw_colour(Document& document, const Field& field) {
 
 void draw_choice(Document& document, const Field& field, ControlMap& controls) {
     const std::string present = choice_of(field, document.json());
-    const float letters = ImGui::CalcTextSize(present.c_str()).x;
-    const bool narrow = ImGui::CalcItemWidth() < letters + 2.5F * ImGui::GetFontSize();
+    const float text_width = ImGui::CalcTextSize(present.c_str()).x;
+    const bool narrow = ImGui::CalcItemWidth() < text_width + 2.5F * ImGui::GetFontSize();
     if (!ImGui::BeginCombo("##value", present.empty() ? "?" : present.c_str(),
                            ImGuiComboFlags_HeightLargest | (narrow ? ImGuiComboFlags_NoArrowButton : 0)))
         return;

@@ -24,7 +24,7 @@ struct PricedChoice {
     nlohmann::json settings;  ///< members of "quality"
     diffraction::ShadingCost cost;
     double price = 0.0;     ///< shading_price()
-    double error = 0.0;     ///< against the reference, by PriceList::measure; off the front: at least
+    double error = 0.0;     ///< against the reference, by PriceList::measure; off the front a lower bound
     bool candidate = true;  ///< one of budget_candidates()
     bool present = false;   ///< the choice that the material pins
     bool on_front = false;  ///< on the candidates' Pareto front of price and error
@@ -40,7 +40,7 @@ struct PriceList {
 
 struct PriceQuery {
     diffraction::Material material;
-    nlohmann::json quality;  ///< the material's, where it pins a representation
+    nlohmann::json quality;  ///< the material's; used if it pins a representation
     const lighting::ProbeImage& probe;
     int key_lights = 16;
     bool pinned_only = false;  ///< measures only the choice that the material pins
@@ -91,7 +91,7 @@ class Measurement {
     }
     /// Pins the choice in the document.
     void choose(const PricedChoice& choice);
-    /// Pins the cheapest choice within an error, once all choices are measured.
+    /// Pins the cheapest choice within an error, after measuring all choices if they are not measured yet.
     void cook_to_budget(double max_error);
 
  private:
@@ -112,7 +112,7 @@ class Measurement {
     using Prices = Computed<PriceInputs, PriceList>;
 
     const Document& document() const { return document_.document(); }
-    /// The errors of all choices do not depend on the material's own choice, which `of_all` leaves out.
+    /// `of_all`: without the material's own choice, on which the errors of all choices do not depend.
     PriceInputs price_inputs(bool of_all) const;
     Prices::Work price_work(bool pinned_only) const;
     void want_pattern();

@@ -58,7 +58,7 @@ bool is_picture_file(const std::filesystem::path& path) {
     return has_extension(path, {".png", ".jpg", ".jpeg"});
 }
 
-/// A sane material file's object as a scene holds it; `file` is for messages.
+/// The object of a valid material file in the folder `from`, as a scene in `folder` holds it. `file` is for messages.
 Json as_extension(const Json& material, const std::filesystem::path& from, const std::filesystem::path& folder,
                   const std::string& file) {
     return holds_film(material) ? thin_film::gltf_object(material, file)

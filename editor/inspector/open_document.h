@@ -58,7 +58,7 @@ class OpenDocument {
     /// Opens a shipped material ("cd") as the start of a new one, or attaches it to the scene's chosen material.
     /// Returns whether it could.
     bool open_preset(const std::string& name);
-    /// Those of one category are contiguous.
+    /// The shipped materials, category by category.
     static std::span<const Preset> presets();
     /// Whether opening the file would replace the document.
     bool is_replaced_by(const std::filesystem::path& path) const;
@@ -70,8 +70,8 @@ class OpenDocument {
     bool asks_to_overwrite = false;
     void save_as(const std::filesystem::path& path);
 
-    /// The arguments with which the demo shows the document as edited: of unsaved edits a copy, that of an earlier
-    /// call. Throws Error (system).
+    /// The arguments with which the demo shows the document as edited. Unsaved edits are written to a copy, which later
+    /// calls overwrite. Throws Error (system) if it cannot be written.
     std::vector<std::string> demo_arguments();
 
     /// Sets the grating or the film of the scene's chosen material from JSON text; removes it.

@@ -21,7 +21,7 @@ namespace rowland::inspector {
 void draw_picked_pixel(const View& view, ControlMap& controls);
 
 /// The physics of a film as plots: its reflectance over wavelength and angle, and its colours over thickness, by the
-/// exact sum, by the cooked table and by glTF's formula.
+/// exact sum, by a table and by glTF's formula.
 class FilmPanel {
  public:
     /// Call it every frame.
@@ -122,7 +122,7 @@ class PreviewPanel {
     void draw(OpenDocument& opened, LightChoice& light, View& view, const platform::InputState& input,
               float pixels_per_unit, float seconds, ControlMap& controls);
 
-    /// Moves the camera until what has the chosen material fills the picture.
+    /// Moves the camera so that the meshes with the chosen material fill the picture.
     void frame(View& view);
 
     bool comparing = false;  ///< the saved version is shown to the left of the dividing line
@@ -148,7 +148,7 @@ class PreviewPanel {
 };
 
 /// The cost and the error of the material, and of the other representations that a grating could have: a plot of error
-/// over price, with a slider along the unbeaten choices.
+/// over price, with a slider along the Pareto front.
 class PricePanel {
  public:
     /// `frame_ms`: the median frame time here; 0: unknown.

@@ -68,7 +68,7 @@ constexpr double kFaintest = 1e-3;
 /// Texels around the outermost order.
 constexpr int kMargin = 4;
 
-/// Half the side, in texels, of the middle square that contains all texels brighter than `faintest`.
+/// Half the side, in texels, of the middle square that contains all texels brighter than `faintest`, and a margin.
 int lit_half(const std::vector<glm::dvec3>& xyz, int size, double faintest) {
     int half = 0;
     for (int row = 0; row < size; ++row)
@@ -86,7 +86,7 @@ std::vector<double> luminances(const std::vector<glm::dvec3>& xyz) {
     return result;
 }
 
-/// Shades by so many bands of the light's SH, PHYSICS (5.3).
+/// Shades by `bands` bands of the light's SH, PHYSICS (5.3).
 diffraction::PointShader harmonics_shader(const diffraction::Material& material,
                                           const diffraction::EvaluationLight& light, int bands) {
     return diffraction::in_tangent_frame(

@@ -36,8 +36,8 @@ struct AngleCurve {
     std::vector<OrderPeak> peaks;    ///< the shown orders that leave the surface, ascending angles
 };
 
-/// brdf_energy() (PHYSICS §3) for light from `incidence_deg`, of a sheet from behind, and views in the plane across the
-/// grooves, both within ±90°: at about `samples` even angles, with more around each peak.
+/// brdf_energy() (PHYSICS §3) over views in the plane across the grooves, for light from `incidence_deg` (through a
+/// sheet: from behind). Both angles are within ±90°. Has `samples` evenly spaced angles, and more around each peak.
 AngleCurve angle_curve(const diffraction::Grating& grating, double wavelength_nm, double incidence_deg,
                        int samples = 721);
 
@@ -47,8 +47,9 @@ struct EfficiencyCurve {
     std::vector<glm::dvec2> points;  ///< (wavelength in nm, efficiency), 380 to 780 nm
 };
 
-/// Efficiencies of the shown orders for light from s_g, on which those of scalar theory do not depend, sorted by order;
-/// at most the `most` strongest orders. Under a cover: of the light that enters it.
+/// Efficiencies of the shown orders every 4 nm, sorted by order; at most `most` curves: of order 0 and of the strongest
+/// others. s_g, the light's component across the grooves, has no effect in scalar theory. Under a cover: of the light
+/// that enters it.
 std::vector<EfficiencyCurve> efficiency_curves(const diffraction::Grating& grating, double s_g = 0.0,
                                                std::size_t most = 9);
 
@@ -84,7 +85,7 @@ std::vector<OrderTrace> order_directions(const diffraction::Grating& grating, co
 struct KernelStrip {
     double begin_nm = 0.0;
     double end_nm = 0.0;
-    std::vector<glm::dvec3> xyz;  ///< of even cells: the kernel's mean over each, summed over R, G and B; per nm
+    std::vector<glm::dvec3> xyz;  ///< mean over each of the equal cells, for white light R = G = B = 1; per nm
 };
 
 /// Over all path differences that directions can have, |x| ≤ 2d, where the kernel is not 0. No cells if it is 0
@@ -94,7 +95,7 @@ KernelStrip kernel_strip(const diffraction::KernelTable& kernel, double pitch_nm
 /// The diffraction pattern of white light of the material's illuminant, as a square picture over u = s + v in the
 /// surface (g, h). Mirrored light has u = 0.
 struct PatternFigure {
-    double half_width = 0.0;      ///< largest |u_g|, |u_h| of the picture: all but the faintest orders
+    double half_width = 0.0;      ///< largest |u_g|, |u_h|; beyond are only the faintest orders
     int size = 0;                 ///< texels of a side
     std::vector<glm::dvec3> xyz;  ///< row by row from the smallest u_h; Y has a mean of 1, weighted by itself
 
@@ -111,8 +112,8 @@ struct PointRadiance {
     glm::dvec3 drawn{0.0};         ///< XYZ by the material's representation
 };
 
-/// `light` must be the division of `probe`. White light has the material's illuminant. The frame must be valid.
-/// `layout`: of the object that the point is on.
+/// `light` must be `probe`, divided into key lights and the residual. White light has the material's illuminant. The
+/// frame must be valid. `layout`: of the object that the point is on.
 PointRadiance point_radiance(const diffraction::CookedMaterial& cooked, const lighting::ProbeImage& probe,
                              const diffraction::EvaluationLight& light, const diffraction::ShadingPoint& frame,
                              diffraction::GrooveLayout layout);
@@ -147,8 +148,8 @@ struct FilmInputs {
     friend bool operator==(const FilmInputs&, const FilmInputs&) = default;
 };
 
-/// XYZ of reflected white light: by the exact sum, averaged over the lobe of a rough surface; by the table that is
-/// drawn; by the formula that glTF recommends, which knows films of one layer: empty for others.
+/// XYZ of reflected white light: by the exact sum, averaged over the lobe of a rough surface; by a table as it is baked
+/// for drawing; by the formula that glTF recommends for films of one layer, empty for others.
 struct FilmColours {
     std::vector<glm::dvec3> exact;
     std::vector<glm::dvec3> table;
@@ -160,14 +161,16 @@ struct FilmCurves {
     std::vector<glm::dvec2> bare;      ///< likewise without the film
     std::vector<double> angles_deg;
     FilmColours over_angle;
-    std::vector<double> thicknesses_nm;  ///< of the outermost layer: 0 to 800, or to its own if it is thicker
-    FilmColours over_thickness;          ///< at the angle
-    bool complete = false;               ///< the table is baked; its colours are empty before
-    double table_error = 0.0;            ///< over_thickness against the exact sum, relative RMS
+    /// Of the outermost layer: 0 to 800, or the last 800 up to its own thickness if that is larger.
+    std::vector<double> thicknesses_nm;
+    FilmColours over_thickness;  ///< at the angle
+    bool complete = false;       ///< the table is baked; its colours are empty before
+    double table_error = 0.0;    ///< over_thickness against the exact sum, relative RMS
     double formula_error = 0.0;
 };
 
-/// Takes a second or two. Publishes the curves without the table first. nullopt if it was stopped.
+/// Takes a second or two. The film must have a layer. Publishes the curves without the table first. nullopt if it was
+/// stopped.
 std::optional<FilmCurves> film_curves(const FilmInputs& inputs, const std::stop_token& stop,
                                       const std::function<void(FilmCurves)>& publish);
 

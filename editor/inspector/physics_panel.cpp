@@ -16,7 +16,7 @@ namespace rowland::inspector {
 
 namespace {
 
-/// Half the width, and the position of the brightest texel.
+/// Half the width, and the position of the brightest texel, for the control map.
 std::string numbers_of_pattern(const PatternFigure& figure) {
     const auto found = std::ranges::max_element(figure.xyz, {}, &glm::dvec3::y);
     const auto index = static_cast<int>(found - figure.xyz.begin());
@@ -239,8 +239,7 @@ void draw_sweep(const ViewSweep& sweep) {
 }
 
 void draw_energy(const diffraction::Grating& grating, const PaneLight& light, ControlMap& controls) {
-    const EnergyBalance balance =
-        energy_balance(grating, light.wavelength_nm, std::sin(light.incidence_deg * std::numbers::pi / 180.0));
+    const EnergyBalance balance = energy_balance(grating, light.wavelength_nm, sine_of(light.incidence_deg));
     const std::array<std::pair<const char*, double>, 5> parts = {{{"orders", balance.orders},
                                                                   {"zero order", balance.zero},
                                                                   {"absorbed", balance.absorbed},
@@ -296,7 +295,7 @@ void PatternPane::draw(const View& view, std::shared_ptr<const PatternFigure> pa
     if (pattern->size == 0) return ImGui::TextDisabled("No listed order has light.");
     if (std::exchange(shown_, pattern) != pattern || exposure_stops_ != view.stage.exposure_stops) paint(view, display);
     const double end = shown_->half_width;
-    // Its axes take as much of the width as of the height.
+    // Square: the margins of a plot are 0.2 font heights more in height than in width.
     const Plot plot("##pattern", ImGui::GetContentRegionAvail().x + 0.2F * ImGui::GetFontSize(), {-end, end, "u_g"},
                     {-end, end, "u_h"});
     const auto id = reinterpret_cast<ImTextureID>(static_cast<std::intptr_t>(texture_.id()));

@@ -12,14 +12,14 @@ namespace rowland::inspector {
 
 namespace {
 
-constexpr float kRimHeight = 0.82F;  ///< of the sphere's rim in the picture, as a fraction of half its height
+constexpr float kRimHeight = 0.82F;  ///< radius of the sphere's rim, as a fraction of half the picture's height
 
 float sphere_radius(const scene::Camera& camera) {
     const float rim = std::atan(kRimHeight * std::tan(0.5F * camera.vertical_field_of_view));
     return glm::distance(camera.eye, camera.target) * std::sin(rim);
 }
 
-/// The direction of the first intersection of a ray with the sphere (of the last if `far`), or of the sphere's point
+/// The direction from the centre of a sphere to its first intersection with a ray (the last if `far`), or to its point
 /// nearest to a ray that misses.
 glm::vec3 direction_of(const Ray& ray, const glm::vec3& centre, float radius, bool far) {
     const glm::vec3 to_centre = centre - ray.origin;
@@ -42,7 +42,7 @@ std::optional<PickedPoint> pick_point(const scene::Mesh& mesh, const glm::mat4& 
     const float determinant = glm::determinant(linear);
     if (determinant == 0.0F) return std::nullopt;
     const glm::mat4 to_object = glm::inverse(object_to_world);
-    // The direction keeps its length in the mesh's space, so that distances are those of the world.
+    // The direction is not normalised in the mesh's space, so that distances along it are those of the world.
     const Ray local{glm::vec3(to_object * glm::vec4(ray.origin, 1.0F)), glm::mat3(to_object) * ray.direction};
     const auto hit = scene::nearest_hit(local, mesh);
     if (!hit) return std::nullopt;
@@ -86,7 +86,7 @@ void drag_lamp(Stage& stage, const scene::Camera& camera, float aspect, const gl
     const Ray ray = scene::ray_through(camera, {aspect * at.x, at.y}, {aspect, 1.0F});
     const glm::vec3 direction = direction_of(ray, camera.target, sphere_radius(camera), behind);
     stage.lamp_elevation_deg = glm::degrees(std::asin(std::clamp(direction.y, 0.0F, 1.0F)));
-    // Overhead there is no azimuth: it stays.
+    // A lamp overhead has no azimuth, so the last one stays.
     if (std::hypot(direction.x, direction.z) > 1e-4F)
         stage.lamp_azimuth_deg = glm::degrees(std::atan2(direction.x, direction.z));
 }

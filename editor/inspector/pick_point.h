@@ -17,7 +17,7 @@ using scene::Ray;
 
 /// A point of a mesh, in world axes.
 struct PickedPoint {
-    diffraction::ShadingPoint frame;  ///< as in the shaders: toward the eye, the interpolated normal and tangent
+    diffraction::ShadingPoint frame;  ///< as in the shaders: interpolated normal; the tangent as grating vector
     glm::dvec3 bitangent{0.0};        ///< unit
     glm::vec3 position{0.0F};
     glm::vec2 uv{0.0F};

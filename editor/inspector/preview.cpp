@@ -47,7 +47,7 @@ gpu::Program overlay_program() {
 constexpr glm::vec3 kUp(0.0F, 1.0F, 0.0F);
 constexpr glm::vec3 kPosition(0.0F, 0.052F, 0.0F);  ///< of the object, metres
 
-/// The backward tilt at which each shape shows its colours.
+/// The rotation about the x axis at which each shape shows its colours.
 float tilt_deg(PreviewShape shape) {
     if (shape == PreviewShape::Disc) return 52.0F;
     return shape == PreviewShape::Card || shape == PreviewShape::Sheet ? -28.0F : 0.0F;

@@ -74,9 +74,8 @@ class Preview {
     /// `still`, for captures: maps are complete in the second frame; otherwise they fill over many frames.
     Preview(const post::OcioConfig& config, bool still) : config_(config), still_(still), now_(config, still) {}
 
-    /// Sets the inputs; call it every frame. Object and light must exist, and the surface of a shape. Uploads changed
-    /// inputs. Throws Error if the GPU refuses the light or a material; the upload is not repeated, and the last one
-    /// stays in the picture.
+    /// Sets the inputs; call it every frame. The object and the light must exist. Uploads changed inputs. Throws Error
+    /// if the GPU refuses the light or a material; the upload is not repeated, and the last one stays in the picture.
     void show(const PreviewInputs& inputs);
     /// Draws a frame, `seconds` after the last, until the picture of the inputs no longer changes.
     void draw(float seconds);
@@ -98,7 +97,8 @@ class Preview {
     std::optional<PickedSurface> pick(const glm::vec2& at);
     /// Points of the last frame, as pick() takes them, where a material may be visible: the middles of its meshes.
     std::vector<glm::vec2> middles_of(std::size_t material);
-    /// Around the parts of a material, with its radius in w, in the axes of PreviewInputs::eye; nullopt: none is drawn.
+    /// A sphere around the parts of a material: its centre in the axes of PreviewInputs::eye, its radius in w. nullopt:
+    /// none is drawn.
     std::optional<glm::vec4> sphere_of(std::size_t material);
     /// From the preview's world to its picture, as pick() takes points.
     glm::vec2 project(const glm::vec3& position) const;
@@ -130,7 +130,7 @@ class Preview {
         view::Picture picture;
         ecs::World world;
         ecs::Entity root;              ///< above the object
-        std::vector<ecs::Entity> all;  ///< the object's
+        std::vector<ecs::Entity> all;  ///< of the object
         std::vector<Drawn> drawn;
         ecs::Entity lamp;
         std::shared_ptr<const PreviewObject> object;

@@ -48,7 +48,7 @@ float fitting_scale(const scene::Bounds& box);
 struct SceneMaterial {
     std::string name;
     std::vector<std::string> meshes;                             ///< the meshes that use it, each once
-    scene::TangentSource tangents = scene::TangentSource::File;  ///< the poorest of those meshes
+    scene::TangentSource tangents = scene::TangentSource::File;  ///< the poorest source among those meshes
 };
 
 /// A scene file in its rest pose, without its gratings, films, lights and cameras. Each primitive of the file is a

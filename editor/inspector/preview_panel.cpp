@@ -21,11 +21,11 @@ struct Knob {
     ImVec2 end;
 };
 
+/// `at`: from the picture's upper left corner, in [0, 1]; `corner`, `size`: of the picture.
 ImVec2 on_screen(const glm::vec2& at, const ImVec2& corner, const ImVec2& size) {
     return {corner.x + at.x * size.x, corner.y + at.y * size.y};
 }
 
-/// `corner`, `size`: of the picture.
 std::optional<Knob> knob_of(const Document& document, const View& view, const ImVec2& corner, const ImVec2& size) {
     if (!view.shows_grooves || view.shape() != PreviewShape::Scene || !view.surface() || !document.has_grating())
         return std::nullopt;
@@ -243,7 +243,7 @@ void PreviewPanel::draw_picture(const View& view, const ImVec2& corner, const Im
     if (const gpu::Framebuffer* grooves = view.preview().grooves())
         draw.AddImage(texture_of(*grooves), corner, end, {0.0F, 1.0F}, {1.0F, 0.0F});
     if (const auto& picked = view.picked()) {
-        const ImVec2 at(corner.x + picked->position.x * size.x, corner.y + picked->position.y * size.y);
+        const ImVec2 at = on_screen(picked->position, corner, size);
         draw.AddCircle(at, 0.45F * font, kBlack, 0, 3.5F);
         draw.AddCircle(at, 0.45F * font, IM_COL32_WHITE, 0, 1.5F);
     }
@@ -269,14 +269,11 @@ void PreviewPanel::draw_saved(const View& view, const ImVec2& corner, const ImVe
 
 void PreviewPanel::draw_lamp(const Stage& stage, const ImVec2& corner, const ImVec2& size, ControlMap& controls) const {
     const LampHandle handle = lamp_handle(camera_.camera(), size.x / size.y, stage);
-    const auto in_window = [&](const glm::vec2& at) {
-        return ImVec2(corner.x + at.x * size.x, corner.y + at.y * size.y);
-    };
-    const ImVec2 at = in_window(handle.position);
+    const ImVec2 at = on_screen(handle.position, corner, size);
     const float radius = 0.45F * ImGui::GetFontSize();
     const int alpha = handle.behind ? 90 : 220;
     ImDrawList& draw = *ImGui::GetWindowDrawList();
-    draw.AddLine(in_window(handle.centre), at, IM_COL32(255, 235, 170, alpha / 3), 1.5F);
+    draw.AddLine(on_screen(handle.centre, corner, size), at, IM_COL32(255, 235, 170, alpha / 3), 1.5F);
     draw.AddCircleFilled(at, radius, IM_COL32(255, 235, 170, alpha));
     draw.AddCircle(at, radius, kBlack, 0, 1.5F);
     controls.note("lamp handle",

@@ -60,7 +60,7 @@ void draw_numbers(const PriceList& list, bool is_current, const OpenDocument& op
     const std::string waiting = opened.document().material().quality.pinned ? "measuring…" : "chosen by the cooker";
     const std::string name =
         drawn->representation == cooked ? cooked : fmt::format("{} in place of {}", drawn->representation, cooked);
-    draw_row("Representation", name.c_str());
+    draw_row("Representation", name);
     controls.note("representation", name);
     draw_row("Measured error",
              measured ? fmt::format("{:.4g} {}, on a {} surface", present->error, measure_label(list.measure),

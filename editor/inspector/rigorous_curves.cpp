@@ -29,7 +29,8 @@ OrderEfficiencies solve_at(const RigorousInputs& inputs, double wavelength_nm, d
                               diffraction::truncation_with(margin, inputs.relief, index, wavelength_nm));
 }
 
-/// Every solve of one wavelength gives light from s_g + kλ/d for all k.
+/// The s_g to solve for at one wavelength. A solve gives light from s_g + kλ/d for all k; together the solves have
+/// incidences that are at most `angle_deg` apart near normal incidence.
 std::vector<double> comb_starts(const RigorousInputs& inputs, double angle_deg) {
     const double period = std::min(inputs.wavelength_nm / inputs.relief.pitch_nm, 2.0);
     const int count = std::max(1, static_cast<int>(std::ceil(period / (angle_deg * kRadiansPerDegree))));

@@ -30,16 +30,16 @@ struct PolarisedPoint {
     double mean() const { return (te + tm) / 2.0; }
 };
 
-/// One order where it leaves the surface, ascending.
+/// Efficiencies of one order where it leaves the surface, sorted by PolarisedPoint::at.
 struct RigorousOrder {
     int order = 0;
     std::vector<PolarisedPoint> over_wavelength;  ///< 380 to 780 nm
     std::vector<PolarisedPoint> over_incidence;
 };
 
-/// Publishes coarse curves: every 50 nm and 6° at the smallest truncation that is worth trying, within .02 of the
-/// final ones. Then returns converged ones: every 10 nm and 1.5°, within .002. nullopt if it was stopped. Throws Error
-/// (input) if the relief does not converge.
+/// Publishes coarse curves: a point every 50 nm, and every 6° near normal incidence, with the smallest truncation that
+/// is worth trying; they are within 0.02 of the final ones. Then returns converged curves: every 10 nm and 1.5°, within
+/// 0.002. nullopt if it was stopped. Throws Error (input) if the relief does not converge.
 std::optional<std::vector<RigorousOrder>> rigorous_curves(
     const RigorousInputs& inputs, const std::stop_token& stop,
     const std::function<void(std::vector<RigorousOrder>)>& publish);

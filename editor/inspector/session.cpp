@@ -7,17 +7,14 @@
 #include <utility>
 #include <vector>
 
-#include "engine/app/drawing_program.h"
 #include "engine/core/error.h"
-#include "engine/core/file.h"
-#include "engine/view/picture.h"
 
 namespace rowland::inspector {
 
 namespace {
 
-/// The shape on which a preset shows its colours without a change of view. The sheet is bent, so that light and eye are
-/// nearly along the surface somewhere: only there the finest grooves send light, and the coarsest reflect a streak.
+/// The shape on which a preset shows its colours without a change of view. The sheet is bent, so that light and view
+/// are grazing somewhere on it: only there the finest grooves diffract visible light and the coarsest reflect a streak.
 PreviewShape shape_of_preset(const std::string& name) {
     return name.starts_with("cd") || name == "dvd" ? PreviewShape::Disc : PreviewShape::Sheet;
 }

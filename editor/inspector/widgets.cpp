@@ -25,6 +25,7 @@ constexpr ImU32 kGrid = IM_COL32(255, 255, 255, 22);
 /// Lengths of dashes and gaps in pixels at scale 1; 0: a solid line.
 constexpr std::array kDashes = {0.0F, 7.0F, 3.0F, 12.0F};
 
+/// Draws a segment of a dashed polyline. `done`: the length of the segments before it; its own is added.
 void dashed(ImDrawList& draw, const ImVec2& a, const ImVec2& b, ImU32 colour, float dash, float width, float& done) {
     const float length = std::hypot(b.x - a.x, b.y - a.y);
     if (dash <= 0.0F || length <= 0.0F) {

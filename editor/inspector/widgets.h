@@ -35,7 +35,7 @@ struct PlotAxis {
 /// A rectangle with axes, drawn with ImGui's own draw lists.
 class Plot {
  public:
-    /// As wide as the window. `name` is unique in it.
+    /// As wide as the current ImGui window, in which `name` is unique; `height` in pixels.
     Plot(const char* name, float height, const PlotAxis& x, const PlotAxis& y);
 
     /// Screen coordinates of a point, clamped to the plot.
@@ -79,7 +79,7 @@ std::vector<double> ticks(const PlotAxis& axis, int count);
 glm::vec3 screen_colour(const glm::dvec3& xyz);
 ImU32 screen_colour_u32(const glm::dvec3& xyz);
 
-/// The colour of one wavelength at the highest brightness of the screen.
+/// The colour of one wavelength, as bright as the screen can show it; darker toward the ends of the spectrum.
 ImU32 wavelength_colour(double wavelength_nm, float alpha = 1.0F);
 
 /// Writes the rectangles of the last frame's controls, by name, to a file, for programs that drive the inspector
@@ -92,8 +92,8 @@ class ControlMap {
     void mark(const std::string& name);
     /// Adds a named value.
     void note(const std::string& name, const std::string& value);
-    /// Writes the file if it changed, and the number of frames to a file of the same name with ".frames": two frames
-    /// after an input the program has seen it.
+    /// Writes the file if its content changed, and the number of frames to a file of the same name with ".frames": two
+    /// frames after an input the program has seen it. A failure is logged and ends the writing.
     void end_frame();
 
  private:

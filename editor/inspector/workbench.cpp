@@ -281,7 +281,7 @@ void Workbench::draw_tiles(const platform::InputState& input, const WorkbenchFra
     splitter("lower splitter", {left + gap, top + height - below - gap}, {middle, gap}, layout_.price_height, below,
              -1.0F);
     draw_status(top + height, frame.size.x, status, frame.frame_ms);
-    // The first Tab goes to the first field. A window takes the focus when it appears.
+    // A window takes the focus when it appears. The fields shall have it, so that the first Tab goes to the first one.
     if (!std::exchange(focused_, true)) ImGui::SetWindowFocus("Material");
 }
 

@@ -45,16 +45,18 @@ struct TileSizes {
     float right = 0.0F;
     float below = 0.0F;
 };
-/// Those of the layout, or less where they would leave the preview too little of a small window of that size.
+/// The sizes of the layout, reduced where the preview would have too little room in a small window of that size.
+/// `font`: the font height.
 TileSizes tile_sizes(const Layout& layout, glm::vec2 size, float font);
 
 /// The inspector's window: a menu, the fields on the left, the preview with its price below, the physics on the right.
-/// Call between Ui::begin_frame() and Ui::draw().
 class Workbench {
  public:
     Workbench(const post::OcioConfig& config, Session& session, Layout& layout, ControlMap& controls)
         : session_(session), layout_(layout), controls_(controls), physics_(config), dialogs_(session, layout) {}
 
+    /// Call it between Ui::begin_frame() and Ui::draw(). `keys_are_ours`: whether shortcuts run; false while a text
+    /// field has the keyboard.
     void draw(const platform::InputState& input, bool keys_are_ours, const WorkbenchFrame& frame);
 
     /// Opens a file; asks first if unsaved edits would be lost.
@@ -67,14 +69,15 @@ class Workbench {
     bool closed() const { return closed_; }
     /// Whether the user requested a screenshot since the last call.
     bool take_screenshot() { return std::exchange(screenshot_, false); }
-    /// Whether the next frame differs without input: a message disappears, or the film's curves are being computed.
+    /// Whether the next frame differs without input: a message disappears, or curves are being computed.
     bool due() const { return messages_.due() || film_.busy() || physics_.busy(); }
 
  private:
     std::vector<Command> commands();
     void draw_tiles(const platform::InputState& input, const WorkbenchFrame& frame);
     void draw_status(float top, float width, float height, double frame_ms);
-    /// Drags `value`, a size in font heights that is shown as `shown`.
+    /// Drags `value`, a size in font heights; `shown`: its present size in screen coordinates; `sign`: 1 if the size
+    /// grows to the right, −1 if it grows to the left or upward.
     void splitter(const char* name, const ImVec2& corner, const ImVec2& size, float& value, float shown, float sign);
     void note_facts();
 
