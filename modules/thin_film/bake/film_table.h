@@ -41,10 +41,10 @@ struct TableError {
 };
 
 /// M averaged over the microfacets that a view sees, at nodes. PHYSICS (4.2), (5.1). Columns are equal steps of
-/// √(c + kCosineOffset) of the view's cosine c. Rows are equal steps of log₂(x + kPathOffset_nm) of the path difference x in
-/// the outermost layer at the lobe's mean_square_cosine(): fringes of all angles have the same x. Layers are equal
-/// steps of roughness from 0. Where thickness and roughness vary (`by_lobe_nodes`), the table holds M of the smooth
-/// film alone, and M of a lobe is its weighted mean at the lobe's four nodes.
+/// √(c + kCosineOffset) of the view's cosine c. Rows are equal steps of log₂(x + kPathOffset_nm) of the path
+/// difference x in the outermost layer at the lobe's mean_square_cosine(): fringes of all angles have the same x.
+/// Layers are equal steps of roughness from 0. Where thickness and roughness vary (`by_lobe_nodes`), the table
+/// holds M of the smooth film alone, and M of a lobe is its weighted mean at the lobe's four nodes.
 struct FilmTable {
     int columns = 0;
     int rows = 0;

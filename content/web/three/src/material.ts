@@ -18,7 +18,7 @@ export interface GratingParameters extends MeshPhysicalMaterialParameters {
     /** A material file's JSON, or the object of ROWLAND_materials_diffraction. */
     grating?: object;
     /**
-     * Of a grating of rigorous theory. Without them Maxwell's equations are solved; until then scalar theory shows.
+     * Of a grating of rigorous theory. Without them a worker computes them; scalar theory shows until then.
      * Numbers: as Tasks.solve() gives them.
      */
     efficiencies?: Efficiencies | Float32Array;
