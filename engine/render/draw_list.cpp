@@ -16,7 +16,7 @@ namespace rowland::render {
 
 namespace {
 
-/// Appends the entity's joint matrices, if it has a skin and its mesh can follow it.
+/// Appends the entity's joint matrices and sets its posed bounds, if it has a skin and its mesh has joints.
 void add_pose(ecs::World& world, Draw& draw, std::vector<glm::mat4>& joints) {
     const scene::Skin* skin = draw.mesh->is_skinned() ? world.find<scene::Skin>(draw.entity) : nullptr;
     if (skin == nullptr) return;

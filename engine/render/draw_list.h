@@ -41,13 +41,13 @@ struct Draw {
     bool skinned = false;
     std::size_t first_joint = 0;
     SurfaceFeatures features = 0;
-    bool in_picture = false;  ///< its bounds are
+    bool in_picture = false;  ///< whether its bounds are in the camera's view volume
     LightMix light = {};
-    /// Under one of its probes.
+    /// How it is drawn under one of its probes.
     struct Lit {
         const gpu::Program* program = nullptr;          ///< null if it is not drawn in the main pass
         const gpu::Program* overlay_program = nullptr;  ///< MaterialType::overlay_program(), or null
-        std::size_t block_offset = 0;                   ///< of its ObjectBlock, bytes
+        std::size_t block_offset = 0;                   ///< of its ObjectBlock in the renderer's buffer, bytes
         std::uint64_t kind = 0;                         ///< DrawControl::kind(); 0: its time is not measured
     };
     Lit first = {};
@@ -65,7 +65,8 @@ struct DrawList {
     std::vector<glm::mat4> joints;  ///< of all skinned draws, one after the other
 };
 
-/// Everything that has a MeshInstance, a StandardMaterial and a WorldMatrix. `lights`: feature::kLights of the frame.
+/// All entities that have a MeshInstance, a StandardMaterial and a WorldMatrix. `lights`: the bits of feature::kLights
+/// that the frame has. Throws Error (input) if two material types own one entity.
 DrawList gather_draws(ecs::World& world, std::span<const std::unique_ptr<MaterialType>> types, SurfaceFeatures lights);
 
 /// A texture transform as the columns of a 2×2 matrix and an offset, as shaders take it.
@@ -76,15 +77,16 @@ struct UvTransform {
 /// KHR_texture_transform: offset · rotation · scale, the rotation counter-clockwise where v points down.
 UvTransform uv_transform(const scene::TextureTransform& transform);
 
-/// `part`: of the draw's light.
+/// What shaders read of a draw that gives the fraction `part` of the surface's light.
 ObjectBlock object_block(const Draw& draw, const glm::mat3& rec709_to_working, float part);
 
-/// By program, kind and probe, and from front to back within one: few changes of state, little overdraw.
+/// Sorts by program, kind and probe, for few changes of state, then from front to back, for little overdraw.
 void sort_opaque(std::vector<const Draw*>& draws);
 
-/// The fixed-function state that draws a surface into a target of this size; none if no pixel may change.
+/// The fixed-function state that draws a surface into a target of this size; nullopt if its columns
+/// are narrower than a pixel.
 std::optional<gpu::PipelineState> state_of(const Draw& draw, glm::ivec2 size);
-/// That which adds the surface under its second probe.
+/// The state that adds the surface under its second probe to the picture.
 gpu::PipelineState adding(const gpu::PipelineState& first);
 
 }  // namespace rowland::render

@@ -10,8 +10,8 @@
 
 namespace rowland::render {
 
-/// Occlusion by what the picture shows, from its depth: of ambient light, and of the light that casts shadows close to
-/// where things touch.
+/// Screen-space occlusion, from the picture's depth: of ambient light, and of the light that casts shadows close to
+/// where objects touch.
 struct AmbientOcclusionSettings {
     float radius_m = 0.1F;    ///< farthest occluder of ambient light; above 0
     float contact_m = 0.01F;  ///< length of a contact shadow's ray; 0: none
@@ -19,14 +19,14 @@ struct AmbientOcclusionSettings {
     friend bool operator==(const AmbientOcclusionSettings&, const AmbientOcclusionSettings&) = default;
 };
 
-/// The light that casts shadows is a disc, whose shadows' edges widen with the distance from what casts them.
+/// Shadows of a disc light: their edges widen with the distance from what casts them.
 struct SoftShadowSettings {
     float angular_radius = 0.03F;  ///< of the light, radians
 
     friend bool operator==(const SoftShadowSettings&, const SoftShadowSettings&) = default;
 };
 
-/// Effects on a surface's light that the renderer adds. Each that is off costs nothing.
+/// Effects on a surface's light that the renderer adds. An effect that is off costs nothing.
 struct Effects {
     std::optional<AmbientOcclusionSettings> ambient_occlusion = std::nullopt;
     std::optional<SoftShadowSettings> soft_shadows = std::nullopt;
@@ -41,14 +41,15 @@ struct Effects {
 ///
 /// Ambient light: ground-truth ambient occlusion (Jimenez et al. 2016, "Practical realtime strategies for accurate
 /// indirect occlusion", eqs. 7 and 10): the cosine-weighted visibility within the horizons of two slices, which are
-/// turned from pixel to pixel in a pattern of 4×4. Normals are those of the depth. A mean over 7×7 pixels of similar
-/// depth removes the pattern, so that nothing changes from frame to frame but what moves.
+/// rotated from pixel to pixel in a pattern of 4×4. Normals are computed from the depth. A mean over 7×7 pixels of
+/// similar depth removes the pattern; it is the same in each frame, so that nothing flickers.
 ///
 /// The light that casts shadows: a short ray toward it through the depth, which darkens what a shadow map's bias leaves
 /// bright.
 class AmbientOcclusion {
  public:
-    /// Makes textures for a picture of this size and clears the depth. Draw what is seen there, then call draw().
+    /// Makes textures for a picture of this size; clears, binds and returns the depth. Draw the visible surfaces into
+    /// it, then call draw().
     const gpu::Framebuffer& begin(glm::ivec2 picture);
     /// `toward_light`: unit, world axes; none: no contact shadows.
     void draw(ProgramCache& programs, const scene::Camera& camera, float aspect,

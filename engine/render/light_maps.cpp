@@ -28,15 +28,15 @@ gpu::Texture cube_map(const lighting::CubeLayout& layout, const gpu::Sampling& s
                         sampling);
 }
 
-/// A packed map's texels in the working space, still in units of its scale, with an alpha that is not read: drivers
-/// copy texels that have the texture's own format, and convert others.
+/// A packed map's texels in the working space, still in units of its scale. They get an alpha, which is not read,
+/// because drivers copy texels of the texture's own format and convert others.
 std::vector<std::uint16_t> to_working_space(std::span<const std::uint16_t> packed, const glm::mat3& to_working) {
     std::vector<std::uint16_t> halves;
     halves.reserve(packed.size() / 3 * 4);
     for (std::size_t i = 0; i + 2 < packed.size(); i += 3) {
         const glm::vec3 rgb(glm::unpackHalf1x16(packed[i]), glm::unpackHalf1x16(packed[i + 1]),
                             glm::unpackHalf1x16(packed[i + 2]));
-        // Rec.709 lies inside ACEScg and its rows sum to 1: no component exceeds the largest of the three.
+        // Rec.709 lies inside ACEScg and the matrix's rows sum to 1: no component exceeds the largest of the three.
         const glm::vec3 working = to_working * rgb;
         for (int c = 0; c < 3; ++c) halves.push_back(glm::packHalf1x16(working[c]));
         halves.push_back(0);
@@ -119,7 +119,7 @@ glm::vec3 sample_ggx(float u, float w, float alpha) {
     return {sin_theta * std::cos(phi), sin_theta * std::sin(phi), cos_theta};
 }
 
-/// Smith visibility × 4 n·l n·v, height-correlated.
+/// Smith's height-correlated shadowing and masking, G₂.
 float shadowing(float n_l, float n_v, float alpha) {
     const float a2 = alpha * alpha;
     const float l = n_v * std::sqrt(n_l * n_l * (1.0F - a2) + a2);

@@ -50,7 +50,7 @@ struct StandardMaterial {
     float clear_coat = 0.0F;  ///< strength of a dielectric layer on top, 0 to 1; not of a material type's surface
     float clear_coat_roughness = 0.0F;  ///< perceptual
     SurfaceTexture wear_texture = {};   ///< scene::wear_map()
-    bool scratched = true;              ///< whether scratches are in it
+    bool scratched = true;              ///< whether wear_texture has scratches
 };
 
 /// A DirectionalLight of the scene in world axes.
@@ -61,15 +61,15 @@ struct DistantLight {
     friend bool operator==(const DistantLight&, const DistantLight&) = default;
 };
 
-/// The light of a frame as material types are given it. Linear Rec.709, world axes.
+/// A frame's light under one probe, as material types get it. Linear Rec.709, world axes.
 struct FrameLight {
     std::shared_ptr<const lighting::LightProbe> probe;
-    /// Whether the renderer shades the probe's key lights as analytic lights (KEY_LIGHTS in shaders): then all other
-    /// diffuse light is without them.
+    /// Whether the renderer shades the probe's key lights as analytic lights (KEY_LIGHTS in shaders). If so, all
+    /// other diffuse light excludes them.
     bool analytic_key_lights = false;
     std::vector<DistantLight> distant_lights = {};  ///< all directional lights of the scene
     std::uint64_t version = 0;                      ///< changes with any member above
-    /// Of lights[] in the shaders (scene_blocks.h), in that order: irradiance or intensity. Not part of `version`.
+    /// Irradiance or intensity of each of lights[] in the shaders (scene_blocks.h). Not part of `version`.
     std::vector<glm::vec3> light_strengths = {};
 
     /// The probe's key lights that are shaded as analytic lights; empty unless `analytic_key_lights`.
@@ -78,12 +78,12 @@ struct FrameLight {
     }
 };
 
-/// The probes of an object, as indexes of a frame's FrameLights: 0 is the renderer's own, i + 1 that of its volume i
-/// (probe_volumes.h). Two at most: `first` below `second`, whose part of the light is `second_part`; 0: there is none.
+/// The one or two probes of an object, as indexes of a frame's FrameLights: 0 is the renderer's own, i + 1 that of its
+/// volume i (probe_volumes.h). `first` is less than `second`; in a fade by DrawControl::second_part() both are equal.
 struct LightMix {
     std::size_t first = 0;
     std::size_t second = 0;
-    float second_part = 0.0F;
+    float second_part = 0.0F;  ///< fraction of the light that `second` gives; 0: there is no second
 
     bool has_second() const { return second_part > 0.0F; }
     bool is_local() const { return first > 0 || has_second(); }
@@ -95,10 +95,11 @@ struct LitEntity {
     LightMix light;
 };
 
-/// Which of an entity's probes: one between two is drawn under each, and the pictures are added.
+/// Which of its probes an entity is drawn under. An entity between two is drawn under each, and the radiances are
+/// added.
 enum class ProbeSlot { First, Second };
 
-/// How a material type keeps the draws of its entities within a time.
+/// How a material type keeps the time that its entities' draws take within a limit.
 class DrawControl {
  public:
     virtual ~DrawControl() = default;
@@ -106,23 +107,24 @@ class DrawControl {
     DrawControl(const DrawControl&) = delete;
     DrawControl& operator=(const DrawControl&) = delete;
 
-    /// What the draws of an earlier frame took; before MaterialType::update(), in frames that have news. Objects are
-    /// object_number() of their entities.
+    /// Gets the measured times of an earlier frame's draws. Called before MaterialType::update(), in frames in which
+    /// measurements have arrived. MeteredRun::Draw::object is an entity's object_number().
     virtual void take(ecs::World& world, std::span<const gpu::MeteredRun> runs) = 0;
-    /// Draws of one kind should take the same time per sample. Not 0.
+    /// A number for the draw, not 0: draws of one kind should take the same time per sample.
     virtual std::uint64_t kind(ecs::World& world, ecs::Entity entity, ProbeSlot slot) const = 0;
-    /// An entity that has one probe is drawn twice under it, in both slots, the second with this part of the light,
-    /// more than 0: a fade from one picture to another. nullopt: once. Asked after MaterialType::update().
+    /// A fade from one picture of the entity to another: an entity that has one probe is drawn twice under it, in both
+    /// slots, the second time with this fraction of the light, more than 0. nullopt: it is drawn once. Called after
+    /// MaterialType::update().
     virtual std::optional<float> second_part(ecs::World& world, ecs::Entity entity) const = 0;
 };
 
-/// Of an entity in gpu::MeteredRun.
+/// The number of an entity in gpu::MeteredRun; entity_of() is the inverse.
 std::uint64_t object_number(ecs::Entity entity);
 ecs::Entity entity_of(std::uint64_t object_number);
 
 class SurfaceTextures;
 
-/// A material extension of a scene, as attach() is given it.
+/// A material extension of a scene, as MaterialType::attach() gets it.
 struct MaterialExtension {
     const nlohmann::json& object;
     const scene::MaterialDescription& material;  ///< whose extension it is
@@ -147,11 +149,12 @@ class MaterialType {
     virtual std::string name() const = 0;
     /// The glTF material extension that describes such a surface; empty if none does.
     virtual std::string gltf_extension() const { return {}; }
-    /// Other extensions of the material that the surface depends on. A warning says that they are ignored where they
-    /// stand without gltf_extension().
+    /// Other extensions of the material that the surface depends on. instantiate() warns that they are ignored in a
+    /// material without gltf_extension().
     virtual std::vector<std::string> gltf_extensions_beside() const { return {}; }
-    /// Gives an entity, which already has its MeshInstance and StandardMaterial, the surface that the extension and
-    /// its tables describe. `textures`: those of its file. Throws Error (input).
+    /// Gives an entity, which already has its MeshInstance and StandardMaterial, the surface that the extension and its
+    /// tables describe. `textures`: those of its file. Throws Error (input) if the extension is wrong or not cooked. A
+    /// type with a gltf_extension() must override it.
     virtual void attach(ecs::World& world, ecs::Entity entity, const MaterialExtension& extension,
                         SurfaceTextures& textures);
 
@@ -161,7 +164,7 @@ class MaterialType {
     virtual bool owns(ecs::World& world, ecs::Entity entity) const = 0;
     /// The program that draws an owned entity; equal descriptions share one.
     virtual gpu::ProgramDesc program(ecs::World& world, ecs::Entity entity, ProbeSlot slot) const = 0;
-    /// While it is the same for an entity, so is its program(), which is then not asked for; 0: it may be another.
+    /// Draws of equal keys have equal program(), which is then not called again; 0: call program() for each draw.
     virtual std::uint64_t program_key(ecs::World& /*world*/, ecs::Entity /*entity*/, ProbeSlot /*slot*/) const {
         return 0;
     }
@@ -171,11 +174,12 @@ class MaterialType {
     /// Programs that will draw an owned entity in place of program() and overlay_program(), without a change of the
     /// scene: they are compiled in this frame as well.
     virtual std::vector<gpu::ProgramDesc> later_programs(ecs::World& world, ecs::Entity entity, ProbeSlot slot) const;
-    /// Once a frame, before anything is drawn and the programs of all entities are asked for: updates per-object data.
-    /// `lights`: under each of the frame's probes. `seen`: the drawn entities, of any type, that are in the picture,
-    /// then others that mirrors may show.
+    /// Updates per-object data. Called once per frame of Shading::Full, before programs are asked for and anything is
+    /// drawn. `lights`: by index of LightMix. `seen`: the drawn entities, of any type, that are in the picture, then
+    /// others that mirrors may show.
     virtual void update(ecs::World& world, std::span<const FrameLight> lights, std::span<const LitEntity> seen) = 0;
-    /// Changes in each update() after which an entity looks different, though neither it nor the light has moved.
+    /// A number that changes in each update() after which an entity looks different although neither it nor the light
+    /// has changed.
     virtual std::uint64_t version() const { return 0; }
     /// Null: its draws are not timed.
     virtual DrawControl* draw_control() const { return nullptr; }
@@ -186,7 +190,7 @@ class MaterialType {
 };
 
 /// The type that draws an entity; null: the engine's own surface. `file` and `json_pointer` (empty: the
-/// entity's name) are for messages. Throws Error (input) that names both types if two own it.
+/// entity's name) are for messages. Throws Error (input), which names both types, if two own it.
 const MaterialType* owner_of(ecs::World& world, ecs::Entity entity,
                              std::span<const std::unique_ptr<MaterialType>> types, const std::string& file,
                              const std::string& json_pointer = {});

@@ -73,7 +73,7 @@ void put_on_gpu(LitProbe& probe, const glm::dmat3& rec709_to_working) {
     probe.mirror = mirror_map(*probe.light.probe, rec709_to_working);
 }
 
-/// The LitProbe of every volume, and the frame's lights.
+/// Updates the LitProbe of every volume and the frame's lights.
 void Renderer::update_volumes(ecs::World& world) {
     volumes_ = gather_volumes(world);
     std::erase_if(local_probes_, [&](const auto& known) {
@@ -107,7 +107,7 @@ void Renderer::update_ambient(LitProbe& probe) const {
     if (!keys.empty()) probe.ambient = lighting::ambient_coefficients(lighting::residual(sh, keys, sh.bands), keys);
 }
 
-/// Of each draw; those that light one, and the sky's, are put on the GPU.
+/// Chooses the probes of each draw. Probes that light one, and the sky's, are put on the GPU.
 void Renderer::choose_probes(Frame& frame) {
     frame.lit.assign(frame_probes_.size(), false);
     frame.lit[0] = true;
@@ -124,7 +124,7 @@ void Renderer::choose_probes(Frame& frame) {
         if (!frame.lit[i]) continue;
         LitProbe& probe = *frame_probes_[i];
         if (!probe.environment) put_on_gpu(probe, rec709_to_working_);
-        // Under another's key lights the programs read the map of all.
+        // A program with KEY_LIGHTS reads the map also of a probe that has none.
         if (key_lights && !probe.key_irradiance)
             probe.key_irradiance = key_irradiance_map(probe.light.key_lights(), rec709_to_working_);
     }

@@ -22,12 +22,12 @@ namespace rowland::render {
 struct ProbeVolume {
     std::shared_ptr<const lighting::LightProbe> probe;
     glm::vec3 half{1.0F};  ///< of the box's sides, along the entity's axes
-    float fade_m = 1.0F;   ///< beyond the box, over which its light gives way to other light; 0: at once
+    float fade_m = 1.0F;   ///< width of the zone around the box in which its light fades to other light
 };
 
-/// Where a volume's light holds, in the world.
+/// The box of a ProbeVolume in the world.
 struct ProbeBox {
-    glm::mat4 box_to_world{1.0F};  ///< from the box between −1 and 1
+    glm::mat4 box_to_world{1.0F};  ///< from the cube between −1 and 1
     glm::mat4 world_to_box{1.0F};
     float fade_m = 0.0F;
 
@@ -36,29 +36,29 @@ struct ProbeBox {
     float weight(const glm::vec3& point) const;
 };
 
-/// The frame's volumes in the order of their entities. A volume of a matrix that is singular is left out.
+/// The frame's volumes in the order of their entities. Volumes without a probe or with a singular matrix are left out.
 struct ProbeVolumes {
     std::vector<ProbeBox> boxes;
     std::vector<std::shared_ptr<const lighting::LightProbe>> probes;
 };
 ProbeVolumes gather_volumes(ecs::World& world);
 
-/// The light at a point. A smaller box takes its weight() of what the boxes before it left, and the renderer's probe
-/// takes the remainder; of more than two parts the third largest is subtracted from the larger two. Continuous in the
-/// point, but where three parts are equal.
+/// The light at a point. From the smallest box to the largest, each takes the fraction weight() of the light that the
+/// smaller ones left; the renderer's probe takes the remainder. Of more than two parts the two largest are kept, less
+/// the third largest, and normalised. Continuous in the point, except where three parts are equal.
 LightMix light_at(const glm::vec3& point, std::span<const ProbeBox> boxes);
 
 /// A probe as shaders and material types read it.
 struct LitProbe {
     FrameLight light;
     lighting::AmbientLight ambient;  ///< without the analytic key lights
-    /// Of a probe that lights something that is drawn.
+    /// Set once the probe lights a drawn surface.
     std::optional<LightMap> environment;
-    gpu::Texture mirror;                     ///< in units of environment's scale
-    std::optional<LightMap> key_irradiance;  ///< none without analytic key lights
+    gpu::Texture mirror;                     ///< set with `environment`, in units of its scale
+    std::optional<LightMap> key_irradiance;  ///< set once a lit surface reads KEY_LIGHTS
 };
 
-/// Makes its environment and mirror.
+/// Makes `environment` and `mirror`.
 void put_on_gpu(LitProbe& probe, const glm::dmat3& rec709_to_working);
 
 }  // namespace rowland::render

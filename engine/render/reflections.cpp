@@ -51,7 +51,7 @@ void add_lights(const SceneLights& lights, const glm::vec3& normal, ReflectionBl
     }
 }
 
-/// Also the map's transform.
+/// Sets the map's coordinates on the plane, including its texture transform.
 void set_uv(const ReflectedTop& top, const scene::TextureTransform& transform, ReflectionBlock& block) {
     const UvTransform map = uv_transform(transform);
     const glm::mat2 linear(map.linear.x, map.linear.y, map.linear.z, map.linear.w);
@@ -155,7 +155,7 @@ ObjectReflection::ObjectReflection(int face_size)
 
 scene::Camera cube_face_camera(int face, const glm::vec3& centre) {
     const glm::vec3 forward(lighting::cube_direction(face, 0.0, 0.0));
-    // A face's first row of texels is the lowest of a picture that is taken with its rows upward.
+    // Rows of a face and of a picture both begin at the bottom if the camera's up is toward larger rows.
     const glm::vec3 upward = glm::vec3(lighting::cube_direction(face, 0.0, 1.0)) - forward;
     return {.eye = centre,
             .target = centre + forward,
@@ -206,7 +206,7 @@ void add_draw(Hasher& hasher, const Draw& draw) {
     for (const SurfaceMap& map : kSurfaceMaps) add_bytes(hasher, (draw.material->*map.texture).texture.get());
 }
 
-/// The bounds of all that is in the picture, by group; in an order that does not depend on the camera.
+/// Each group that mirrors objects and its bounds, in an order that does not depend on the camera.
 std::vector<std::pair<ecs::Entity, scene::Bounds>> reflecting_groups(const DrawList& list) {
     std::vector<std::pair<ecs::Entity, scene::Bounds>> groups;
     for (const Draw& draw : list.draws) {
@@ -255,7 +255,8 @@ void Renderer::draw_object_reflections(ecs::World& world, Frame& frame) {
     if (drawn) bind_frame(frame);
 }
 
-/// What is drawn around a group: all opaque objects but its own and those below the plane that mirrors show.
+/// The draws around a group: all opaque objects except its own and those below the plane that mirrors show. Of entities
+/// that split the picture by PictureColumns, only the leftmost is drawn, whole.
 Renderer::Frame Renderer::surroundings(ecs::World& world, const Frame& frame, ecs::Entity group) {
     Frame around = frame;
     around.size = object_reflections_->picture.size();
@@ -276,8 +277,8 @@ Renderer::Frame Renderer::surroundings(ecs::World& world, const Frame& frame, ec
     return around;
 }
 
-/// All faces are drawn again for another scene, light or centre, and one in a frame while objects turn. Shadows that
-/// change by the camera alone wait for that.
+/// Marks the faces to be drawn again: all in this frame if objects, light or centre are others than before, one per
+/// frame if only their motion is. Shadows that change with the camera alone are not updated until then.
 void Renderer::update_staleness(const Frame& around, ObjectReflection& reflection) const {
     Hasher scene;
     Hasher motion;

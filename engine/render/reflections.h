@@ -31,31 +31,31 @@ namespace rowland::render {
 /// environment. Of several, one is shown. In the mesh's own space; glTF nodes have it by their extras:
 /// `"reflected_top": true`.
 ///
-/// A known plane is met by every reflected ray, seen or not, without a search and without noise; the picture's own
-/// pixels would show mirrors nothing of what they face away from the viewer.
+/// A reflected ray meets a known plane without a search and without noise, also where the camera does not see the
+/// plane. Reflections from the picture's pixels would miss what the camera does not see.
 struct ReflectedTop {
     glm::vec3 centre{0.0F};
     glm::vec2 half{0.0F};       ///< of its sides along x and z
-    glm::mat2 uv_linear{0.0F};  ///< from x and z, from the centre, to texture coordinates
+    glm::mat2 uv_linear{0.0F};  ///< from x and z relative to the centre to texture coordinates
     glm::vec2 uv_offset{0.0F};
 };
 
-/// Of a mesh: the rectangle of its bounds at their highest y, with the texture coordinates of the largest triangle
-/// there.
+/// The rectangle of a mesh's bounds at their highest y, with the texture coordinates of the largest triangle there.
 ReflectedTop top_of(const scene::Mesh& mesh);
 
 /// The light on a plane, in the working space.
 struct PlaneLight {
-    std::function<const LitProbe&(const glm::vec3&)> probe_at;  ///< that lights most at a point
+    std::function<const LitProbe&(const glm::vec3&)> probe_at;  ///< the probe of the larger part of light_at()
     const SceneLights& lights;
     glm::mat3 rec709_to_working{1.0F};
 };
 
-/// Reflections of the plane, as of a dielectric: it reflects ambient and directional light diffusely, and the
-/// environment in a lobe of its roughness. Highlights, points and spots are left out.
+/// Reflections of the plane in mirrors. The plane is a dielectric: it reflects ambient and directional light diffusely,
+/// and the environment in a lobe of its roughness. Highlights, point lights and spot lights are left out.
 class LocalReflection {
  public:
-    /// Takes over the frame's plane and its light. False if there is none. `pixel_angle`: of a pixel, radians.
+    /// Takes the plane of the frame and its light. False if there is no plane. `pixel_angle`: that a pixel subtends,
+    /// radians.
     bool update(ecs::World& world, const PlaneLight& light, float pixel_angle);
     void bind() const;
     /// Whether a box lies below the plane, where mirrors show the plane alone.
@@ -74,7 +74,8 @@ struct ReflectsObjects {
     ecs::Entity group;  ///< a mirror shows nothing of its own group
 };
 
-/// From `centre` through a face of a cube map, whose first row of texels is the picture's lowest.
+/// The camera at `centre` that looks through a face of a cube map. The face's first row of texels is the picture's
+/// lowest.
 scene::Camera cube_face_camera(int face, const glm::vec3& centre);
 
 /// The light from objects around a point and their distance, as two cube maps. A mirror near the point searches them
@@ -84,25 +85,25 @@ class ObjectReflection {
  public:
     static constexpr int kFaces = 6;
 
-    /// Of a cube map's face, of so many texels; 1: for empty surroundings.
+    /// With empty surroundings. `face_size`: texels along a side of a cube map's face.
     explicit ObjectReflection(int face_size);
 
     scene::Camera camera(int face) const { return cube_face_camera(face, centre); }
-    /// Takes a face from a picture that shows it, of twice the size, and the picture's depth.
+    /// Fills a face from a picture by camera(face), of twice the face's size, and the picture's depth.
     void store(ProgramCache& programs, const gpu::FullScreenTriangle& triangle, const gpu::Framebuffer& picture,
                int face);
-    /// After all faces are stored.
+    /// Updates the smaller levels; call it after store().
     void finish() { light_.generate_levels(); }
-    /// For draws by a program in use.
+    /// Binds both maps for draws by a program, which must be in use.
     void bind(const gpu::Program& program) const;
 
     glm::vec3 centre{0.0F};
-    Hash128 scene;             ///< of what all faces must be drawn again for: light, objects
-    Hash128 motion;            ///< of what one face in a frame is enough for
-    int stale_faces = kFaces;  ///< from next_face on
-    bool all_at_once = true;   ///< not one in a frame
+    Hash128 scene;             ///< of the light and the objects: if it changes, all faces are drawn again at once
+    Hash128 motion;            ///< of what moves: if it changes, faces are drawn again, one per frame
+    int stale_faces = kFaces;  ///< number of faces to be drawn again, from next_face on
+    bool all_at_once = true;   ///< in the next frame, instead of one per frame
     int next_face = 0;
-    gpu::StreamBuffer frame_data;  ///< as the renderer's
+    gpu::StreamBuffer frame_data;  ///< the renderer's, while faces are drawn
 
  private:
     gpu::Texture light_;                     ///< working space, times coverage; alpha: coverage
@@ -110,15 +111,16 @@ class ObjectReflection {
     std::vector<gpu::Framebuffer> targets_;  ///< light and nearness of each face
 };
 
-/// Those of all groups, and what it takes to draw them.
+/// The ObjectReflection of each group, and what drawing them needs.
 struct ObjectReflections {
     static constexpr int kFaceSize = 128;
 
     ObjectReflections();
+    /// Makes it if the group has none.
     ObjectReflection& of(ecs::Entity group);
 
-    ObjectReflection nothing{1};  ///< what mirrors mirror in another's surroundings
-    gpu::Texture all_visible;     ///< used there instead of AmbientOcclusion::visibility()
+    ObjectReflection nothing{1};  ///< what mirrors in another mirror's surroundings reflect
+    gpu::Texture all_visible;     ///< bound for the surroundings instead of AmbientOcclusion::visibility()
     gpu::Framebuffer picture{{.width = 2 * kFaceSize, .height = 2 * kFaceSize, .depth = true}};
     gpu::FullScreenTriangle triangle;
 

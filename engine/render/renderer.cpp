@@ -21,7 +21,7 @@ namespace {
 
 constexpr const char* kPlainShader = "plain";
 constexpr const char* kShadowShader = "shadow";
-// For surfaces whose slope changes within a texel: there the lift in surface.glsl is not enough.
+// For surfaces whose slope changes within a texel: SHADOW_LIFT in surface.glsl is not enough for them.
 constexpr float kShadowSlopeBias = 1.0F;
 
 gpu::ProgramDesc shader_pair(const std::string& name) {
@@ -31,7 +31,7 @@ gpu::ProgramDesc shader_pair(const std::string& name) {
     return desc;
 }
 
-/// Appends values where a buffer can be bound, and returns where that is.
+/// Appends values at the next offset at which a buffer may be bound. Returns that offset, bytes.
 template <typename T>
 std::size_t append(std::vector<std::byte>& bytes, const T* values, std::size_t count = 1) {
     const std::size_t offset = gpu::aligned(bytes.size());
@@ -87,7 +87,7 @@ void Renderer::set_shadow_map_size(int size) {
 }
 
 void Renderer::set_effects(const Effects& effects) {
-    // Soft shadows read the map's depth, others compare with it.
+    // Soft shadows sample the map's depth; others sample it with depth comparison.
     if (effects.soft_shadows.has_value() != effects_.soft_shadows.has_value()) shadow_map_.reset();
     object_reflections_.reset();
     effects_ = effects;
@@ -187,7 +187,7 @@ void Renderer::update_materials(ecs::World& world, Frame& frame) {
     }
 }
 
-/// Hands what was measured to the types that asked for it.
+/// Hands finished measurements to the types that have a DrawControl.
 void Renderer::take_metered(ecs::World& world) {
     const auto is_controlled = [](const auto& type) { return type->draw_control() != nullptr; };
     if (std::ranges::none_of(types_, is_controlled)) return meter_.reset();
@@ -207,7 +207,7 @@ void Renderer::select_draws(ecs::World& world, Frame& frame) {
             draw.features = without_light(draw.features);
             draw.light = {};
         }
-        // Also for what is not seen yet, so that no later frame waits for a compiler.
+        // Also for entities that are not in the picture yet, so that no later frame waits for the compiler.
         for (const ProbeSlot slot : {ProbeSlot::First, ProbeSlot::Second}) {
             if (slot == ProbeSlot::Second && !draw.light.has_second()) continue;
             Draw::Lit& lit = slot == ProbeSlot::First ? draw.first : draw.second;

@@ -39,7 +39,7 @@ namespace rowland::render {
 /// How the opaque pass shades. The sky is drawn in both.
 enum class Shading {
     Full,
-    Unlit,  ///< every surface its base colour: what a frame costs without any shading
+    Unlit,  ///< every surface shows base colour and emission, to measure a frame without shading
 };
 
 /// Counts of the last frame.
@@ -47,19 +47,19 @@ struct FrameReport {
     int drawn = 0;                      ///< entities in the picture
     int culled = 0;                     ///< entities outside it
     int shadow_drawn = 0;               ///< entities in the shadow map
-    int reflections_drawn = 0;          ///< entities in the faces of mirrors' surroundings; none unless these changed
+    int reflections_drawn = 0;          ///< draws into mirrors' surroundings; 0 unless these changed
     int programs = 0;                   ///< compiled so far
-    std::vector<gpu::PassTime> passes;  ///< so far in the frame, if set_pass_times() was called
+    std::vector<gpu::PassTime> passes;  ///< latest measured times, if set_pass_times() was called
 };
 
 /// Forward HDR renderer: draws all entities with a MeshInstance, a StandardMaterial and a WorldMatrix, then the sky,
 /// then those that blend, into a float framebuffer with depth, in the working space. Light comes from the probe or, by
 /// the centre of an entity's bounds, from up to two probes of entities with a ProbeVolume, and from entities with a
-/// DirectionalLight or a PunctualLight, at most 64; the first directional light that casts_shadow does. An entity with
-/// PictureColumns is drawn in those only, and casts its whole shadow.
+/// DirectionalLight or a PunctualLight, at most 64; only the first directional light with `casts_shadow` casts a
+/// shadow. An entity with PictureColumns is drawn in these columns only, and casts its whole shadow.
 class Renderer {
  public:
-    /// `xyz_to_working`: from XYZ to the linear space images are made in (normally ACEScg).
+    /// `xyz_to_working`: from XYZ to the linear space in which images are rendered (normally ACEScg).
     explicit Renderer(const glm::dmat3& xyz_to_working);
 
     void add_material_type(std::unique_ptr<MaterialType> type);
@@ -84,9 +84,10 @@ class Renderer {
     /// they were and its Error (system) with file and line is thrown.
     void reload_shaders(const std::filesystem::path& source_tree);
 
-    /// Draws a frame. A probe must have been set. What only an entity that is seen needs is computed when it is seen.
-    /// The programs of a surface are compiled in the first frame that it is in, seen or not. Whoever sets OpenGL's
-    /// state by other means than rowland::gpu calls gpu::forget_bound_state() before.
+    /// Draws a frame. A probe must have been set. Data that only visible entities need are computed when they become
+    /// visible; the programs of a surface are compiled in the first frame that it is in, visible or not. After setting
+    /// OpenGL's state by other means than rowland::gpu, call gpu::forget_bound_state() first. Throws Error (input) if
+    /// two material types own one entity, Error (system) if a program does not compile.
     void render(ecs::World& world, const scene::Camera& camera, const gpu::Framebuffer& target,
                 Shading shading = Shading::Full);
     const FrameReport& report() const { return report_; }
@@ -114,7 +115,7 @@ class Renderer {
         std::vector<std::size_t> frame_offsets;  ///< by probe: of its FrameBlock in frame_data_, bytes
         std::size_t light_offset = 0;            ///< of the LightBlock in frame_data_, bytes
         std::size_t joints_offset = 0;           ///< of the joint matrices
-        float farthest = 0.0F;                   ///< extent of the drawn entities along the camera's axis
+        float farthest = 0.0F;                   ///< largest depth of the drawn entities' bounds, metres
     };
 
     SurfaceFeatures light_features(const Frame& frame) const;
@@ -154,8 +155,8 @@ class Renderer {
     gpu::Limits limits_ = gpu::read_limits();
     std::vector<std::unique_ptr<MaterialType>> types_;
     ProgramCache programs_;
-    std::map<std::pair<std::string, SurfaceFeatures>, const gpu::Program*> surface_programs_;  ///< shortcut into it
-    /// The same by MaterialType::program_key().
+    std::map<std::pair<std::string, SurfaceFeatures>, const gpu::Program*> surface_programs_;  ///< of programs_
+    /// Of programs_, by MaterialType::program_key().
     std::map<std::tuple<const MaterialType*, std::uint64_t, SurfaceFeatures>, const gpu::Program*> type_programs_;
     gpu::VertexArray no_vertices_;
     std::vector<std::byte> staging_;  ///< of frame_data_
@@ -179,7 +180,7 @@ class Renderer {
     SceneLights lights_;
     bool warned_dropped_lights_ = false;
     gpu::PassTimes* times_ = nullptr;
-    std::optional<gpu::DrawMeter> meter_;  ///< if a type has a DrawControl
+    std::optional<gpu::DrawMeter> meter_;  ///< set while a type has a DrawControl
     FrameReport report_;
 };
 

@@ -72,7 +72,7 @@ class Builder {
                    light.light);
     }
 
-    /// One whose file was not there when the scene was cooked is left out.
+    /// Leaves out a probe whose file was missing when the scene was cooked.
     void add_probe(const scene::ImportedProbe& imported) {
         if (!imported.cooked) return;
         auto& probe = probes_[imported.cooked.get()];
@@ -85,7 +85,7 @@ class Builder {
     }
 
  private:
-    /// The node or the nearest one above it that is marked.
+    /// The nearest node, from this one upward, that is marked `reflects_objects`.
     std::optional<std::size_t> reflecting_node(std::optional<std::size_t> node) const {
         while (node && !scene::is_marked(scene_.nodes.at(*node).extras, "reflects_objects"))
             node = scene_.nodes[*node].parent;
@@ -121,7 +121,7 @@ class Builder {
         owner_of(world_, entity, renderer_.material_types(), file_, pointer);
     }
 
-    /// Warns, once per extension, of those that only mean something beside their type's gltf_extension().
+    /// Warns, once per extension, of extensions that are read only beside their type's gltf_extension().
     void warn_unaccompanied_extensions(const scene::MaterialDescription& material, const std::string& pointer) {
         for (const auto& type : renderer_.material_types()) {
             if (material.extensions.contains(type->gltf_extension())) continue;

@@ -41,7 +41,7 @@ class Frustum {
 
 /// The lights of a world, as shaders read them.
 struct SceneLights {
-    LightBlock block = {};                  ///< the light that casts the shadow first
+    LightBlock block = {};                  ///< directional lights before others, the one that casts shadows first
     std::vector<glm::vec3> strengths;       ///< see FrameLight::light_strengths
     std::optional<glm::vec3> shadow_light;  ///< direction toward it
     int dropped = 0;                        ///< number beyond ROWLAND_MAXIMUM_LIGHTS
@@ -79,13 +79,13 @@ struct ShadowView {
 ShadowView fit_shadow(const glm::vec3& toward_light, std::span<const scene::Bounds> casters, const Sphere& seen,
                       int size);
 
-/// Penumbra of a disc light: percentage-closer soft shadows (Fernando 2005). The mean depth of what
-/// blocks the light about a point gives the width over which comparisons with the shadow map are averaged, as by
-/// similar triangles; a tilted surface is compared with its own plane. Exact under one straight edge; where several
-/// blockers lie at different depths, one mean stands for all.
-///
-/// Radius of the mean, in widths of the map, for a blocker that is the map's whole depth away.
+/// Radius of a disc light's penumbra, in widths of the map, for a blocker that is the map's whole depth away.
 /// `angular_radius`: of the light, radians; `size`: of the map, texels.
+///
+/// Shaders multiply it by the mean distance of the blockers about a point, which gives the radius over which
+/// comparisons with the shadow map are averaged: percentage-closer soft shadows (Fernando 2005). A tilted surface is
+/// compared with its own plane. Exact under one straight edge; blockers at different depths are replaced by one at
+/// their mean depth.
 float penumbra_over_depth(const ShadowView& view, int size, float angular_radius);
 
 }  // namespace rowland::render

@@ -73,8 +73,8 @@ SurfaceFeatures features_of(const StandardMaterial& material, const GpuMesh& mes
     if (material.clear_coat > 0.0F) features |= feature::kClearCoat;
     if (material.roughness == 0.0F) features &= ~feature::kRoughReflections;
     if (material.alpha_mode == scene::AlphaMode::Mask) features |= feature::kAlphaMask;
-    // What blends is not in the depth that occlusion is computed from.
     if (material.passes_light) features |= feature::kPassesLight;
+    // A surface that blends is not in the depth that occlusion is computed from.
     if (material.alpha_mode == scene::AlphaMode::Blend || material.passes_light)
         features = (features | feature::kAlphaBlend) & ~feature::kAmbientOcclusion;
     return material.unlit ? without_light(features) : features;
@@ -143,10 +143,10 @@ void add_defines(SurfaceFeatures features, gpu::ProgramDesc& desc) {
                                          [&](const gpu::Define& other) { return other.first == define.first; });
         if (!present) desc.defines.push_back(std::move(define));
     }
-    // Where the normal is not the mesh's, ambient light is the pixel's.
+    // Where the normal is not the vertices', ambient light is computed per pixel.
     if ((features & (feature::kNormalMap | feature::kDoubleSided | feature::kUnlit)) != 0)
         remove("AMBIENT_AT_VERTICES", desc);
-    // A mirror under a normal map is blurred by what the map's normals vary.
+    // Under a normal map, seen_roughness() blurs the mirror by the variation of the normals.
     if ((features & feature::kNormalMap) != 0) remove("MATERIAL_CURVED_MIRROR", desc);
     for (const char* effect : {"OBJECT_REFLECTIONS", "MATERIAL_CURVED_MIRROR", "WEAR_MAP"})
         if (fragment_samplers(desc) > kGuaranteedSamplers) remove(effect, desc);

@@ -44,11 +44,11 @@ inline constexpr SurfaceFeatures kClearCoat = 1U << 26U;
 inline constexpr SurfaceFeatures kAmbientOcclusion = 1U << 27U;
 inline constexpr SurfaceFeatures kSoftShadows = 1U << 28U;
 inline constexpr SurfaceFeatures kLocalReflections = 1U << 29U;
-inline constexpr SurfaceFeatures kFromEye = 1U << 30U;  ///< of a surface's outline: as the camera sees it
+inline constexpr SurfaceFeatures kFromEye = 1U << 30U;  ///< of an outline: seen by the camera, not by the light
 inline constexpr SurfaceFeatures kObjectReflections = 1U << 31U;
 inline constexpr SurfaceFeatures kScratches = 1ULL << 32U;   ///< in the map of wear
-inline constexpr SurfaceFeatures kLocalProbe = 1ULL << 33U;  ///< of a box, or of two probes
-inline constexpr SurfaceFeatures kLightPart = 1ULL << 34U;   ///< a draw may give a part of the light
+inline constexpr SurfaceFeatures kLocalProbe = 1ULL << 33U;  ///< lit by a box's probe, or by two probes
+inline constexpr SurfaceFeatures kLightPart = 1ULL << 34U;   ///< a draw may give only a part of the light
 inline constexpr SurfaceFeatures kEffects =
     kAmbientOcclusion | kSoftShadows | kLocalReflections | kObjectReflections | kRoughReflections;
 inline constexpr SurfaceFeatures kLights = kDirectionalLights | kSeveralDirectionalLights | kPunctualLights | kShadows |
@@ -71,15 +71,15 @@ inline constexpr std::array<SurfaceMap, 6> kSurfaceMaps = {
      {feature::kEmissiveMap, "EMISSIVE_MAP", &StandardMaterial::emissive_texture, kFirstMapUnit + 4},
      {feature::kWearMap, "WEAR_MAP", &StandardMaterial::wear_texture, kWearUnit}}};
 
-/// Of a surface on a mesh. `lights`: those of feature::kLights that the frame has.
+/// The features of a surface on a mesh. `lights`: the bits of feature::kLights that the frame has.
 SurfaceFeatures features_of(const StandardMaterial& material, const GpuMesh& mesh, bool skinned,
                             SurfaceFeatures lights);
-/// Those that an unlit surface needs: base colour, alpha and emission.
+/// The features that an unlit surface needs: for base colour, alpha and emission.
 SurfaceFeatures without_light(SurfaceFeatures features);
-/// Those that a shadow map needs: the surface's outline.
+/// The features that a shadow map needs: for the surface's outline.
 SurfaceFeatures of_shadow(SurfaceFeatures features);
 
-/// As defines for the shaders.
+/// The features as defines for the shaders.
 std::vector<gpu::Define> defines_of(SurfaceFeatures features);
 /// Samplers of a fragment stage that every OpenGL 4.5 has.
 inline constexpr int kGuaranteedSamplers = 16;
@@ -87,9 +87,9 @@ inline constexpr int kGuaranteedSamplers = 16;
 inline constexpr const char* kMaterialSamplers = "MATERIAL_SAMPLERS";
 /// An upper bound of the samplers of a program's fragment stage.
 int fragment_samplers(const gpu::ProgramDesc& desc);
-/// Adds the defines to a program's own, which win. Where that took more than kGuaranteedSamplers, as all six maps with
-/// all effects can, the surface does not mirror the objects around it, then does not average its mirror over pixels,
-/// and then shows no wear.
+/// Adds the features' defines to a program's own, which win, and removes what the features exclude. If the program then
+/// has more than kGuaranteedSamplers, as all six maps with all effects can, these are removed in turn until it has not:
+/// reflections of objects, the mirror's average over pixels, wear.
 void add_defines(SurfaceFeatures features, gpu::ProgramDesc& desc);
 
 /// Programs by description, each compiled on first use.

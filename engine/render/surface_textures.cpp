@@ -34,7 +34,7 @@ gpu::Wrap to_gpu(scene::TextureWrap wrap) {
     check_failed(__FILE__, __LINE__, "unknown texture wrap");
 }
 
-/// Means over boxes of a finer level: the more the vectors vary, the shorter.
+/// Means over boxes of a finer level, not normalised: the more the vectors vary, the shorter their mean.
 std::vector<glm::vec3> means(const std::vector<glm::vec3>& finer, glm::ivec2 size, glm::ivec2 coarser) {
     std::vector<glm::vec3> result;
     result.reserve(static_cast<std::size_t>(coarser.x) * static_cast<std::size_t>(coarser.y));
@@ -50,7 +50,8 @@ std::vector<glm::vec3> means(const std::vector<glm::vec3>& finer, glm::ivec2 siz
     return result;
 }
 
-/// The mean of unit vectors is 1 / sqrt(1 + V) long, where V is the sum of the variances of their slopes.
+/// Uploads all levels of TexelMeaning::Normal. The mean of unit vectors is about 1 / sqrt(1 + V) long, where V is the
+/// sum of the variances of their slopes.
 void upload_normals(const image::ByteImage& image, gpu::Texture& texture) {
     std::vector<glm::vec3> normals;
     normals.reserve(image.rgba.size() / 4);

@@ -16,8 +16,8 @@ namespace rowland::render {
 enum class TexelMeaning {
     Linear,  ///< numbers: roughness
     Srgb,    ///< encoded colours; alpha is linear
-    Normal,  ///< RGB: unit vectors. On the GPU levels hold their means, unit, and in alpha half the root of the sum of
-             ///< their slopes' variances
+    Normal,  ///< RGB: unit vectors. On the GPU, each level holds their normalised means and, in alpha, half the root of
+             ///< the sum of their slopes' variances
 };
 
 /// How an imported texture is sampled: as its file says, anisotropic where it has levels.
@@ -41,7 +41,7 @@ class SurfaceTextures {
     std::map<Key, std::shared_ptr<const gpu::Texture>> textures_;
 };
 
-/// A material as imported, with its textures. None: glTF's default material.
+/// A material as imported, with its textures. Null: glTF's default material.
 StandardMaterial make_material(const scene::MaterialDescription* description, SurfaceTextures& textures);
 
 }  // namespace rowland::render

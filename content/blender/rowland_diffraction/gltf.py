@@ -12,7 +12,7 @@ import numpy
 
 from . import grating, light_probe, wear
 
-# Debian 12's Blender imports no mesh without it: its glTF importer asks for a name that its NumPy has dropped.
+# Without this Debian 12's Blender imports no mesh: its glTF importer uses numpy.bool, which its NumPy has removed.
 if "bool" not in numpy.__dict__:
     numpy.bool = bool
 
@@ -32,7 +32,7 @@ def image_bytes(image):
 
 
 def png_of(image):
-    """Saves a copy, so that the state and the path of the image do not change."""
+    """The image as a new PNG file. A copy is saved, so that the image's state and path do not change."""
     pixels = numpy.empty(len(image.pixels), numpy.float32)
     image.pixels.foreach_get(pixels)
     copy = bpy.data.images.new(image.name, *image.size, alpha=True)
@@ -125,7 +125,7 @@ def imported_image(gltf, index):
 
     source = gltf.data.textures[index].source
     image = gltf.data.images[source]
-    if image.blender_image_name is not None:  # another texture shows it
+    if image.blender_image_name is not None:  # already loaded for another texture
         return bpy.data.images[image.blender_image_name]
     if image.uri is not None and not image.uri.startswith("data:"):
         path = os.path.join(os.path.dirname(os.path.abspath(gltf.filename)), urllib.parse.unquote(image.uri))

@@ -11,7 +11,7 @@ EXTENSION = "ROWLAND_materials_diffraction"
 
 MEMBERS = rowland_folder.load_schema()["properties"]
 METALS = MEMBERS["metal"]["enum"]
-# Of grooves of one direction; the other alternative is a lattice.
+# Members of a grating with grooves of one direction; the other alternative is a lattice.
 GROOVES = next(one["properties"] for one in MEMBERS["grating"]["oneOf"] if "pitch_nm" in one["properties"])
 
 # Each profile's members and their schemas, by the profile's name.
@@ -37,7 +37,7 @@ METAL_COLOURS = {
 
 
 def from_preset(file):
-    """The extension's object of a material file, as of `rowland-cook attach`, but with absolute paths."""
+    """The extension's object for a material file, as `rowland-cook attach` writes it, but with absolute paths."""
     file = Path(file)
     grating = json.loads(file.read_text(encoding="utf-8"))
     grating.pop("base", None)
@@ -61,7 +61,7 @@ def move_files(grating, moved):
 
 
 def relative_to(folder):
-    """For move_files(): makes absolute paths relative to the folder."""
+    """The function for move_files() that makes absolute paths relative to the folder."""
     return lambda name: os.path.relpath(name, folder).replace(os.sep, "/")
 
 
@@ -84,7 +84,7 @@ def set_value(grating, path, value):
 
 
 def drop_impossible_theory(grating):
-    """Rigorous theory is for reliefs of a metal; streaks do not take it."""
+    """Removes the theory unless the grating is a relief of a metal and its representation is not streak."""
     grooves = grating.get("grating", {})
     relief = value_at(grooves, ("profile", "type")) in ("lamellar", "sinusoidal", "blazed")
     if not relief or "metal" not in grating or value_at(grating, ("quality", "representation")) == "streak":
@@ -101,7 +101,7 @@ def is_lattice(grating):
 
 
 def cell_text(grating):
-    """The sides of a lattice's cell."""
+    """The sides of a lattice's cell, as text for the panel."""
     sides = [math.hypot(*grating["grating"]["lattice"][side]) for side in ("a_nm", "b_nm")]
     return "Lattice of {:g} x {:g} nm".format(*sides)
 
@@ -113,7 +113,7 @@ def lattice_fields(grating):
 
 
 def set_pitch(grating, pitch_nm, keeps_orders):
-    """Orders that nobody chose become all that the pitch has."""
+    """Sets the pitch. Unless the user chose the orders (keeps_orders), they become all that the pitch has."""
     set_value(grating, ("grating", "pitch_nm"), pitch_nm)
     if not keeps_orders:
         grating["grating"]["orders"] = "all"
@@ -125,7 +125,7 @@ def orders_text(grating):
 
 
 def set_orders(grating, text):
-    """Text that is neither "all" nor whole numbers changes nothing."""
+    """Sets the orders: "all", or whole numbers, of a lattice the largest. Other text changes nothing."""
     if text.strip() == "all" and not is_lattice(grating):
         grating["grating"]["orders"] = "all"
         return

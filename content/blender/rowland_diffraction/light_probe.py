@@ -15,7 +15,7 @@ class RowlandLightProbe(bpy.types.PropertyGroup):
 
 
 def extension_of(blender_object):
-    """The extension's object; None: it is no box."""
+    """The extension's object; None if the object is not a box with a probe."""
     fields = blender_object.rowland_probe
     if not fields.file or blender_object.type != "EMPTY":
         return None
@@ -24,7 +24,7 @@ def extension_of(blender_object):
 
 
 def replace(blender_object, value):
-    """Shows the box: an Empty's cube has one size, so its scale takes up the lengths. glTF's Y is Blender's Z."""
+    """Sets the box of an Empty. Its cube has one size, so the scale holds the lengths. glTF's Y is Blender's Z."""
     x, y, z = value["size_m"]
     blender_object.empty_display_type = "CUBE"
     blender_object.empty_display_size = 0.5

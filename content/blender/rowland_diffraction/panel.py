@@ -8,7 +8,7 @@ import bpy
 
 from . import grating, properties, rowland_folder
 
-# The fields under each profile and lobe.
+# The fields under each lobe.
 LOBE_FIELDS = {"flat": (), "sigma": ("sigma",), "pits": ("length_nm", "coherent")}
 
 

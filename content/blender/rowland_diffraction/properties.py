@@ -16,7 +16,7 @@ def preset_items(_self, _context):
 
 
 def rounded(value):
-    """Blender's numbers are floats: 833.333 comes as 833.3330078125."""
+    """Seven digits of a number, since Blender's are 32-bit floats: 833.333 comes as 833.3330078125."""
     return float(f"{value:.7g}")
 
 

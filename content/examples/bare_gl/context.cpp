@@ -5,7 +5,7 @@
 #include <stdexcept>
 
 void make_headless_context() {
-    // Without a display: Mesa's surfaceless platform; other drivers give their GPU by default.
+    // Without a display, Mesa needs its surfaceless platform; other drivers' default display is their GPU.
     EGLDisplay display = eglGetPlatformDisplayEXT(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
     if (display == EGL_NO_DISPLAY || !eglInitialize(display, nullptr, nullptr)) {
         display = eglGetDisplay(EGL_DEFAULT_DISPLAY);

@@ -1,6 +1,6 @@
 // bare_gl MATERIAL PROBE PICTURE: a disc with the cooked material MATERIAL under the light probe PROBE (.hdr or .exr,
-// equirectangular) and a lamp, drawn with Rowland's shader and no engine. Writes a PNG, and to standard output, for a
-// few pixels, where they are and their radiance: modules/diffraction/PORTING.md says what happens here.
+// equirectangular) and a lamp, drawn with Rowland's shaders and without its renderer. Writes a PNG, and to standard
+// output the directions and the radiance of a few pixels. modules/diffraction/PORTING.md explains the steps.
 #include <engine/image/byte_image.h>
 #include <engine/image/image.h>
 #include <engine/lighting/light_samples.h>
@@ -26,7 +26,7 @@ using namespace rowland;
 namespace {
 
 constexpr int kSize = 768;                     // of the picture, in pixels
-constexpr int kEvery = 48;                     // pixels from one that is printed to the next
+constexpr int kEvery = 48;                     // distance between printed pixels, in pixels
 const glm::vec3 kEye(0.0F, 0.11F, 0.17F);      // metres
 const glm::vec3 kLamp(-0.36F, 0.80F, -0.48F);  // toward it
 const glm::vec3 kLampFlux(0.06F);              // RGB radiance times solid angle
@@ -38,7 +38,7 @@ const glm::vec3 kNormal = glm::vec3(kDisc[1]);  // the disc lies in its own xz p
 void bind_kernel(GLuint program, const diffraction::CookedMaterial& material) {
     const double pitch_nm = material.material.grating.pitch_nm;
     const diffraction::BlurredKernel kernel = diffraction::blur_for_lights(material.kernel, pitch_nm);
-    const int views = kernel.views;  // more than 1: a volume, of so many slices for each layer
+    const int views = kernel.views;  // more than 1: the texture is a volume with this many slices for each layer
     GLuint texture = 0;
     glCreateTextures(views > 1 ? GL_TEXTURE_3D : GL_TEXTURE_2D_ARRAY, 1, &texture);
     glTextureStorage3D(texture, 1, GL_RGB32F, kernel.columns, kernel.levels, 3 * views);
@@ -100,7 +100,7 @@ void set_scene(GLuint program) {
     glProgramUniform1f(program, at("exposure"), 2.0F);
 }
 
-// A framebuffer of four colours: the picture, and numbers.
+// Draws into a framebuffer of four colours: the picture, and numbers.
 void draw(GLuint program) {
     GLuint framebuffer = 0;
     glCreateFramebuffers(1, &framebuffer);

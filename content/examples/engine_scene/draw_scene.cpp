@@ -49,7 +49,7 @@ int draw_scene(int argc, char** argv, const cook::Registry& registry,
 
     const scene::Camera camera = first_camera(scene);
     for (int frame = 0; frame < 2; ++frame)
-        picture.draw(world, camera, 0.0F);  // the second with full maps: they are filled once objects rest
+        picture.draw(world, camera, 0.0F);  // maps are filled in full once objects rest: in the second frame
     view::write_display_capture(picture.encoded(), argv[3]);
     return 0;
 } catch (const std::exception& error) {

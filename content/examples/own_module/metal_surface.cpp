@@ -35,7 +35,7 @@ vec3 conductor_reflectance(float cosine) {
     return 0.5 * (across + along);
 }
 
-// Light comes in the working space, and goes back in it.
+// `light` and the result are in the working space.
 vec3 reflect_specular(vec3 light, vec3 f0, float cosine) {
     mat3 to_working = mat3(rec709_to_working);
     return to_working * (conductor_reflectance(cosine) * (inverse(to_working) * light));
@@ -43,7 +43,7 @@ vec3 reflect_specular(vec3 light, vec3 f0, float cosine) {
 
 #include "engine/render/shaders/shading.glsl"
 
-// The base alone: nothing covers it, nothing is added.
+// The metallic-roughness base alone: nothing covers it, nothing is added.
 void main() {
     read_screen_visibility();
     write_surface(MaterialTerms(vec3(1.0), vec3(0.0), vec3(0.0)));

@@ -18,7 +18,7 @@ struct Arc {
     diffraction::ArcProducts products;
 };
 
-/// `pitches`: from `smallest` to `largest` of the material's, or 1: that alone.
+/// `pitches`: number of nodes from `smallest` to `largest` times the material's pitch, or 1: its pitch alone.
 ROWLAND_EXPORT(bake_arc)
 Arc* bake_arc(const Material* material, int bands, int rank, double smallest, double largest, int pitches) {
     using namespace diffraction;
@@ -65,7 +65,7 @@ Numbers* rest_sh(glm::vec3* texels, int width, int height, const float* keys, in
     return numbers;
 }
 
-/// The products of vertices: 3 · layers vectors each. `sh`: of rest_sh(), in the table's bands. `normals` and
+/// The products of vertices: 3 · layers vec4s each. `sh`: of rest_sh(), in the table's bands. `normals` and
 /// `gratings`: of `vertices` vertices in the world.
 ROWLAND_EXPORT(arc_products)
 Numbers* arc_products(const Arc* arc, const float* sh, const float* normals, const float* gratings, int vertices) {

@@ -7,7 +7,7 @@
 
 #include "engine/core/check.h"
 
-/// Throws in the worker; its memory is not used again.
+/// Throws in the worker; memory of the call is not released.
 extern "C" [[noreturn]] ROWLAND_IMPORT(refused) void worker_refused(const char* message);
 
 namespace rowland::web {
@@ -42,7 +42,7 @@ void check_failed(const char*, int line, std::string_view message) {
 
 }  // namespace rowland
 
-// Exceptions of the engine all are Error; nothing in the bake catches them.
+// All exceptions of the engine are Error; nothing in the bake catches them.
 extern "C" void* __cxa_allocate_exception(std::size_t bytes) {
     return std::malloc(bytes);
 }

@@ -20,8 +20,7 @@ json json::parse(std::string_view text) {
         value.text_ = text;
         return value;
     }
-    // Of an element: its beginning, and what follows it.
-    std::size_t begin = 1;
+    std::size_t begin = 1;  // of the current element
     int depth = 0;
     for (std::size_t at = 1; at < text.size(); ++at) {
         const char c = text[at];
@@ -53,7 +52,7 @@ std::string json::string() const {
         const char c = text_[++i];
         const std::size_t which = kShort.find(c);
         plain += which != std::string_view::npos ? "\b\f\n\r\t"[which] : c == 'u' ? '?' : c;
-        if (c == 'u') i += 4;  // no name or word of a material has such a character
+        if (c == 'u') i += 4;  // no name or enumerated value of a material has such a character
     }
     return plain;
 }

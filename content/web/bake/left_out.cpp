@@ -17,7 +17,7 @@ Grating parse_lattice_grating(JsonReader& json, const ReadNamed&) {
     json.fail("lattice", "a lattice", "grooves of one direction (pitch_nm)", "the package does not shade lattices");
 }
 
-// Nothing reaches these: a material that names a file is refused, as well.
+// These are never called: lattices are refused, and so are materials that name a file.
 EfficiencyTable parse_efficiency_csv(std::string_view, const std::string&) {
     return {};
 }

@@ -11,7 +11,7 @@
 
 namespace rowland::web {
 
-/// A probe, its key lights once they are fitted, and its samples without them.
+/// A probe, its key lights once they are fitted, and its light samples without these.
 struct Probe {
     lighting::ProbeImage image;
     std::vector<lighting::KeyLight> keys;
@@ -52,7 +52,7 @@ ROWLAND_EXPORT(release_probe) void release_probe(const Probe* probe) {
     delete probe;
 }
 
-/// The probe's image, RGB.
+/// Width and height of the probe's image, then its texels, RGB.
 ROWLAND_EXPORT(probe_texels) Numbers* probe_texels(const Probe* probe) {
     auto* numbers =
         new Numbers{static_cast<float>(probe->image.image().width), static_cast<float>(probe->image.image().height)};
@@ -68,8 +68,8 @@ ROWLAND_EXPORT(key_lobes) Numbers* key_lobes(const Probe* probe) {
 }
 
 /// The `planar` map of the flat lobe: e1, e2, scale and bias of the pitch, then RGB over azimuths, views and pitches.
-/// `resolution`: views, even; azimuths are twice as many. `pitches`: number of steps from `smallest` to `largest` times
-/// the material's pitch, or 1: its pitch alone.
+/// `x`, `y`, `z`: the normal. `resolution`: views, even; azimuths are twice as many. `pitches`: number of nodes from
+/// `smallest` to `largest` times the material's pitch, or 1: its pitch alone.
 ROWLAND_EXPORT(planar_map)
 Numbers* planar_map(const Material* material, const Probe* probe, double x, double y, double z, int resolution,
                     double smallest, double largest, int pitches) {

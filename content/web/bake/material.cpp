@@ -20,8 +20,8 @@ namespace rowland::web {
 
 namespace {
 
-/// Levels of the smoothed kernel an octave: blur(). Of a kernel of several views blur_for_lights() takes one less, with
-/// which a CD's texture has 17 MB.
+/// Levels per octave of the smoothed kernel: blur(). Of a kernel of several views, blur_for_lights() makes one less
+/// than kLevelsOfViews; a CD's texture then has 17 MB.
 constexpr int kLevels = 8;
 constexpr int kLevelsOfViews = 4;
 
@@ -55,8 +55,8 @@ std::shared_ptr<const diffraction::EfficiencyGrid> efficiency_grid(std::span<con
     return grid;
 }
 
-/// What solve() of solve.cpp takes: the profile's index, 0 where nothing is left to solve, pitch, depth, duty, index
-/// over the grooves and metal, or a sheet's index and -1, its reflectance.
+/// Appends the arguments of solve() in solve.cpp: the profile's index (0: there is nothing to solve), pitch, depth,
+/// duty, the index over the grooves or of a sheet, the metal or -1, a sheet's reflectance.
 void append_relief(const Material& material, Numbers& numbers) {
     const diffraction::Grating& grating = material.grating();
     glm::vec2 shape(0.0F);

@@ -1,5 +1,5 @@
-// Functions of the C library by those of JavaScript, which has them: with their tables a tenth of a module. Browsers
-// compile calls of an imported Math.log and its like as calls of their own C functions.
+// Functions of the C library, by those of JavaScript: the library's, with their tables, would be a tenth of a module.
+// Browsers compile a call of an imported Math.log, for example, as a call of their own C function.
 #define ROWLAND_BY_JAVASCRIPT(name)                                                              \
     __attribute__((import_module("Math"), import_name(#name))) double javascript_##name(double); \
     double name(double x) {                                                                      \

@@ -1,5 +1,5 @@
-// Numbers as text and back, by JavaScript: the C library's functions would be a tenth of a module. The sources of the
-// bake call these instead (CMakeLists.txt).
+// Numbers as text and back, by JavaScript: the C library's functions would be a tenth of a module. The bake's sources
+// call these instead (CMakeLists.txt).
 #include <cstddef>
 #include <cstdlib>
 #include <string>

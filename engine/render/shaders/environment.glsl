@@ -1,4 +1,5 @@
-// The probe's light as the surface reflects it: prefiltered, and hidden and replaced by the scene around the surface.
+// The probe's light as the surface reflects it: prefiltered, occluded by the scene around the surface, and replaced by
+// the light of the plane and the objects that mirrors show.
 TEXTURE_UNIT(0) uniform samplerCube environment_map;
 TEXTURE_UNIT(1) uniform sampler2D brdf_table;
 
@@ -9,15 +10,16 @@ in vec3 ambient_at_vertex;
 // Split-sum scale and bias [Karis 2013]: a GGX lobe's albedo for reflectance 1 - (1 - cosine)^5 and for (1 - cosine)^5.
 vec2 split_sum_dfg(float n_v, float roughness) { return texture(brdf_table, vec2(n_v, roughness)).rg; }
 
-// Where the light of a GGX lobe comes from in the mean: between the mirror's direction and the normal [Lagarde & de
-// Rousiers 2014, 4.9.2]. Prefiltered light has the lobe of a surface seen from in front. Under eight captured probes the
-// mirror's direction leaves a white metal of roughness .3, .6, .8 and 1 off by 31, 30, 44 and 51 %, this one by 28, 20, 18
-// and 10 % (relative RMS of views up to 80 degrees, measured). Not a unit vector.
+// The mean direction from which a GGX lobe gets its light, between the mirror's direction and the normal [Lagarde & de
+// Rousiers 2014, 4.9.2]: prefiltered light has the lobe of a surface seen from in front. Measured under eight captured
+// probes, a white metal of roughness .3, .6, .8 and 1 has relative RMS errors over views up to 80 degrees of 28, 20, 18
+// and 10 % with this direction, 31, 30, 44 and 51 % with the mirror's. Not a unit vector.
 vec3 lobe_direction(vec3 n, vec3 v, float roughness) {
     return mix(reflect(-v, n), n, roughness * roughness * roughness);
 }
 
-// Between the mirror's level and the first rough one by the lobe's width, which is proportional to roughness squared.
+// Levels are linear in roughness, but between the mirror's level and the first rough one linear in the lobe's width,
+// which is proportional to roughness squared.
 float environment_level(float roughness) {
     float level = roughness * environment.x;
     return level * min(level, 1.0);
@@ -28,8 +30,8 @@ TEXTURE_UNIT(21) uniform sampler2D lobe_node_table;  // engine/lighting/lobe_nod
 
 const float LOBE_OFFSET = 0.02;  // kLobeCosineOffset
 
-// The four nodes of a GGX lobe, one per component: the cosines of incidence on its microfacets, and the look-ups of the
-// light that they reflect, along mix(mirror's direction, normal, lean).
+// The four nodes of a GGX lobe, one per component: the cosine of incidence on its microfacets, and the weight, the
+// roughness and the lean of the look-up of their light, along mix(mirror's direction, normal, lean).
 struct LobeNodes {
     vec4 cosines;
     vec4 weights;
@@ -55,7 +57,7 @@ LobeNodes lobe_nodes(float n_v, float roughness) {
 // The plane that a reflected ray meets: engine/render/reflections.h.
 TEXTURE_UNIT(17) uniform sampler2D plane_map;
 
-// The plane's visibility of ambient light where the picture shows that point; 1 where something hides it.
+// Visibility of ambient light at a point of the plane, if the picture shows that point; else 1.
 float ambient_visibility_at(vec3 position) {
 #ifdef AMBIENT_OCCLUSION
     vec4 clip = view_projection * vec4(position, 1.0);
@@ -68,7 +70,7 @@ float ambient_visibility_at(vec3 position) {
 #endif
 }
 
-// Not textureSize(plane_map, level), which llvmpipe takes from one pixel's level for its neighbours.
+// Not textureSize(plane_map, level): llvmpipe takes one pixel's level for its neighbours as well.
 ivec2 plane_map_size(int level) { return max(textureSize(plane_map, 0) >> level, ivec2(1)); }
 
 // The map repeats.
@@ -77,7 +79,7 @@ vec3 plane_texel(ivec2 texel, int level) {
     return texelFetch(plane_map, (texel % size + size) % size, level).rgb;
 }
 
-// Filtered here: where neighbours meet no plane, an anisotropic filter has no gradients, and llvmpipe's then never ends.
+// Filtered here: where neighbours meet no plane, an anisotropic filter has no gradients, and llvmpipe's never returns.
 vec3 plane_albedo(vec2 at, float footprint) {
     if (plane_size.w == 0.0) return plane_colour.rgb;
     vec2 uv = plane_uv_linear.xy * at.x + plane_uv_linear.zw * at.y + plane_uv_offset.xy;
@@ -110,7 +112,7 @@ vec3 with_local_reflection(vec3 environment_radiance, vec3 direction, float roug
     if (along.y >= 0.0 || from.y <= 0.0) return environment_radiance;
     float distance = from.y / -along.y;
     vec2 at = from.xz + distance * along.xz;
-    // Of a GGX lobe, half of whose light is within an angle of about its roughness squared; and of the pixel.
+    // Width of a GGX lobe, half of whose light is within an angle of about its roughness squared, plus the pixel's.
     float footprint = 2.0 * roughness * roughness * distance + plane_size.z * (distance + 1.0 / gl_FragCoord.w);
     vec2 inside = clamp((plane_size.xy - abs(at)) / footprint + 0.5, 0.0, 1.0);
     float coverage = inside.x * inside.y;
@@ -134,10 +136,12 @@ uniform vec4 surroundings;  // xyz: the centre, world; w: angle of a texel, radi
 const int MARCH_STEPS = 16;
 const int HALVINGS = 5;
 
-// Toward a ray's point as seen from the centre, at an angle from the ray's direction. `aside`: toward its nearest point.
+// Direction from the centre to a point of a ray, at an angle from the ray's direction. `aside`: to the ray's nearest
+// point.
 vec3 toward_point(float angle, vec3 aside, vec3 direction) { return sin(angle) * aside + cos(angle) * direction; }
 
-// The point lies at least / sin(angle) from the centre, where `least` is the ray's least distance.
+// Whether that point is farther from the centre than the object there. `least`: the ray's least distance from the
+// centre; the point's is least / sin(angle).
 bool lies_behind_object(float angle, vec3 aside, vec3 direction, float least) {
     vec3 toward = toward_point(angle, aside, direction);
     return textureLod(surrounding_nearness, toward, 0.0).r * least > sin(angle);
@@ -152,7 +156,7 @@ vec3 with_object_reflection(vec3 beyond, vec3 direction, float roughness) {
     float least = max(length(foot), 1e-6);
     vec3 aside = foot / least;
     float begin = atan(least, along);
-    float met = -1.0;  // beyond the last angle that is known to lie before an object
+    float met = -1.0;  // an angle at which the ray is behind an object; below 0: none found
     for (int i = 1; i <= MARCH_STEPS && met < 0.0; ++i) {
         float angle = begin * (1.0 - float(i) / float(MARCH_STEPS));
         if (lies_behind_object(angle, aside, direction, least)) met = angle;
@@ -164,7 +168,7 @@ vec3 with_object_reflection(vec3 beyond, vec3 direction, float roughness) {
         if (lies_behind_object(angle, aside, direction, least)) met = angle;
         else before = angle;
     }
-    // A lobe as wide as a plane sees it, and what the pixel covers.
+    // The GGX lobe's angle, as in with_local_reflection(), plus the pixel's.
     float footprint = 2.0 * roughness * roughness + max(spread.x, max(spread.y, spread.z));
     vec4 light = textureLod(surrounding_light, toward_point(met, aside, direction),
                             log2(max(footprint / surroundings.w, 1.0)));
@@ -172,8 +176,9 @@ vec3 with_object_reflection(vec3 beyond, vec3 direction, float roughness) {
 }
 #endif
 
-// Where the environment's light in a direction was captured from: where the ray leaves the probe's box, as the probe sees
-// it [Lagarde & Zanuttini 2012]. Outside the box the ray begins at the box's nearest point. Not a unit vector.
+// The direction from the probe to the point where the ray leaves the probe's box: where the probe captured the light
+// that the ray meets [Lagarde & Zanuttini 2012]. Outside the box the ray begins at the box's nearest point. Not a unit
+// vector.
 vec3 captured_direction(vec3 direction) {
 #ifdef LOCAL_PROBE
     vec3 along = mat3(world_to_box) * direction + 1e-20;  // not zero
@@ -189,7 +194,7 @@ vec3 captured_direction(vec3 direction) {
 // The environment's light as the scene near the surface hides and replaces it.
 vec3 with_surroundings(vec3 light, vec3 direction, float roughness) {
 #ifdef AMBIENT_OCCLUSION
-    // Of what a lobe of this perceptual roughness reflects [Lagarde & de Rousiers 2014].
+    // Specular occlusion of a lobe of this perceptual roughness [Lagarde & de Rousiers 2014].
     float visible = screen_visibility.x;
     float cosine = abs(dot(direction, normalize(world_normal)));
     light *= clamp(pow(cosine + visible, exp2(-16.0 * roughness - 1.0)) - 1.0 + visible, 0.0, 1.0);
@@ -212,8 +217,8 @@ vec3 environment_light(vec3 direction, float roughness) {
 #ifdef MATERIAL_CURVED_MIRROR
 TEXTURE_UNIT(18) uniform samplerCube mirror_map;  // the environment with box-filtered levels
 
-// What a mirror shows, averaged over the pixel: a curved one spreads the directions over many texels, and a lamp may be
-// one. Uses derivatives: call it in uniform control flow.
+// What a mirror shows, averaged over the pixel: in a curved mirror a pixel covers many texels, and a lamp may be one of
+// them. Uses derivatives: call it in uniform control flow.
 vec3 mirrored_light(vec3 direction, vec3 n) {
     return with_surroundings(texture(mirror_map, captured_direction(direction)).rgb * environment.y, direction, 0.0);
 }

@@ -85,7 +85,8 @@ float ambient_visibility(ivec2 texel, vec3 here, vec3 normal, vec2 pattern) {
     return clamp(sum / float(SLICES), 0.0, 1.0);
 }
 
-// Whether a ray toward the light passes behind what is seen, but not far behind: how thick that is, is not known.
+// Visibility along a short ray toward the light. A visible surface blocks it if the ray passes behind that surface by
+// less than `contact`, since its thickness is unknown; blockers count less toward the ray's end.
 float contact_visibility(vec3 here, vec3 normal, float offset) {
     float texel = 2.0 * extent.y * -here.z / size.y;
     if (contact <= 0.0 || dot(normal, toward_light) <= 0.0) return 1.0;
@@ -108,7 +109,7 @@ void main() {
     if (-here.z >= FAR_AWAY) return;
     vec3 normal = normal_at(texel, here);
     if (dot(normal, here) > 0.0) normal = -normal;
-    // In 4x4 pixels each of 16 rotations once, and each of 16 offsets: few rotations would cast fans of stripes.
+    // 4x4 pixels have each of 16 rotations and each of 16 offsets once: fewer rotations would show as fans of stripes.
     ivec2 in_pattern = texel & 3;
     int rotation = 4 * ((in_pattern.x + 2 * in_pattern.y) & 3) + in_pattern.y;
     vec2 pattern = (vec2(rotation, (5 * rotation) & 15) + 0.5) / 16.0;

@@ -1,13 +1,13 @@
 #version 450 core
-// The mean of occlusion.frag.glsl's result along one axis, of pixels at a similar depth; a pass along either axis removes
-// its pattern of 4x4 pixels. Seven pixels of falling weight hold every part of the pattern equally; with four equal ones,
-// thin occluders would cast fans of stripes.
+// The mean of occlusion.frag.glsl's result along one axis, of pixels at a similar depth; a pass along either axis
+// removes its pattern of 4x4 pixels. Seven pixels of falling weight contain every part of the pattern equally; with
+// four equal weights, thin occluders would show as fans of stripes.
 layout(binding = 0) uniform sampler2D visibility_map;
 uniform ivec2 axis;
 
 layout(location = 0) out vec4 visibility;
 
-const float SIMILAR = 0.02;  // relative difference of depths at which a pixel counts no more
+const float SIMILAR = 0.02;  // relative difference of depths from which a pixel has no weight
 
 void main() {
     ivec2 texel = ivec2(gl_FragCoord.xy);

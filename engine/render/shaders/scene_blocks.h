@@ -25,9 +25,9 @@ ROWLAND_BLOCK(0, FrameBlock) {
     vec4 environment;        // x: mip levels - 1; y: radiance per stored unit; z: irradiance per unit of
                              // key_irradiance_map
     vec4 shadow;             // x: width of a shadow texel, metres; y: of the map, 1 / texels; z: 1 if the target holds
-                             // half floats; w: of soft shadows: engine/render/scene_lights.h
+                             // half floats; w: penumbra_over_depth() in engine/render/scene_lights.h
     mat4 box_to_world;       // of the box about a local probe, between -1 and 1, with the probe in its middle
-    mat4 world_to_box;       // its inverse; both only under LOCAL_PROBE
+    mat4 world_to_box;       // its inverse; both read only under LOCAL_PROBE
     vec4 dome;               // x: height of the probe's camera above the floor y = 0, metres; y: radius; 0: none;
                              // zw: 1 / pixels of the picture
 };
@@ -49,10 +49,11 @@ ROWLAND_BLOCK(1, ObjectBlock) {
 
 struct Light {
     vec4 position;  // xyz: unit direction toward a directional light, else metres; w: 1 / range^4, or 0 without a range
-    vec4 strength;  // xyz: irradiance, for points and spots at 1 m; working space. w: of a directional light a quarter
-                    // of its angular radius' squared sine, a disc's variance; else of its squared radius, m^2
-    // Of a spot: xyz: where it shines, times a scale, and w: an offset, which take the cosine from the axis to 0
-    // outside the cone and to 1 in the inner one. Of a point: 0, 0, 0, 1.
+    vec4 strength;  // xyz: irradiance, for points and spots at 1 m; working space. w: the variance of a disc: a
+                    // quarter of the squared sine of a directional light's angular radius, else of the squared radius,
+                    // m^2
+    // Of a spot: xyz: its direction times a scale, w: an offset. w - dot(xyz, l) is 0 at the outer cone and 1 at the
+    // inner one, for l toward the light. Of a point: 0, 0, 0, 1.
     vec4 axis;
 };
 ROWLAND_BLOCK(2, LightBlock) {

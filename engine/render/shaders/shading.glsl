@@ -5,7 +5,7 @@
 
 layout(location = 0) out vec4 radiance;
 #ifdef MATERIAL_PASSES_LIGHT
-layout(location = 0, index = 1) out vec4 background;  // what lies behind is multiplied by it
+layout(location = 0, index = 1) out vec4 background;  // factor of what lies behind
 #endif
 
 // What a material adds to, and leaves of, the metallic-roughness surface. Working space.
@@ -23,7 +23,7 @@ struct LitSurface {
     vec3 f0;
     float alpha2;
     float n_v;       // signed
-    float facing;    // n_v above 0
+    float facing;    // n_v, at least 1e-4
     float masking;   // Smith's term of the view
     vec3 radiance;   // without the coat's
 #ifdef MATERIAL_COAT
@@ -34,8 +34,8 @@ struct LitSurface {
 };
 
 // GGX with height-correlated Smith visibility [Heitz 2014]. `facing`: the view's cosine; `masking`: its Smith's term;
-// `variance`: of the light's directions across their mean. A disc's is a quarter of its squared radius, and half vectors
-// turn by half as much as the light, so that a disc's reflection in a mirror has its radiance in the middle.
+// `variance`: of the light's directions about their mean, a quarter of its squared radius for a disc. Half vectors turn
+// by half as much as the light, so that the middle of a disc's reflection in a mirror has the disc's radiance.
 float microfacets(float n_h, float n_l, float alpha2, float facing, float masking, float variance) {
     float n_h2 = n_h * n_h;
     float d = n_h2 * (alpha2 - 1.0) + 1.0 + variance * n_h2;
@@ -77,7 +77,8 @@ float punctual_attenuation(Light light, float distance2, float inverse, vec3 l) 
     return window * cone * cone;
 }
 
-// Radiance of the metallic-roughness base under the lights. Those of the material and of its coat go to `added`.
+// Radiance of the metallic-roughness base under the lights. The radiance of the material and of its coat goes to
+// `added`.
 vec3 direct_light(vec3 n, vec3 v, vec3 diffuse, vec3 f0, float roughness, inout vec3 added) {
     float alpha2 = max(roughness * roughness * roughness * roughness, 1e-6);
     float n_v = dot(n, v);
@@ -133,15 +134,15 @@ vec3 direct_light(vec3 n, vec3 v, vec3 diffuse, vec3 f0, float roughness, inout 
 #endif
 
 #ifdef WEAR_MAP
-vec3 lobe_light = vec3(0.0);  // that lobe_reflection() found in the environment
+vec3 lobe_light = vec3(0.0);  // the environment's light over the lobe, set by lobe_reflection()
 #endif
 
 // The lobe's reflection of the environment. `dfg`: split_sum_dfg().
 #ifdef ROUGH_REFLECTIONS
-// Sum over parts of the lobe: the light of a part times the reflectance of microfacets at its angle.
+// Sum over the lobe's nodes: the light of a node times the reflectance of microfacets at its angle.
 vec3 lobe_reflection(vec3 n, vec3 v, vec3 f0, float n_v, float roughness, vec2 dfg) {
     LobeNodes nodes = lobe_nodes(n_v, roughness);
-    // Narrower than the first rough level they would show the mirror's sharp lamps.
+    // Look-ups below the first rough level would show sharp lamps, as a mirror does.
     vec4 roughnesses = max(nodes.roughnesses, min(roughness, 1.0 / environment.x));
     vec3 mirrored = reflect(-v, n);
     vec3 sum = vec3(0.0);
@@ -186,9 +187,9 @@ vec3 diffuse_probe_light(vec3 n) {
 #endif
 }
 
-// The metallic-roughness surface: dfg sum [Karis 2013] over the prefiltered probe, and the lights, whose part of the
-// material's own radiance goes to `added`. `base`: colour and alpha, which becomes the fraction of what lies behind that
-// is hidden.
+// The metallic-roughness surface under the prefiltered probe, by the split sum [Karis 2013], and under the lights,
+// whose part of the material's own radiance goes to `added`. `base`: colour and alpha; under a blended material with a
+// transmittance, alpha becomes the fraction of what lies behind that is hidden.
 vec3 base_radiance(inout vec4 base, vec3 n, vec3 v, inout vec3 added) {
     vec2 factors = surface_metallic_roughness();
     float roughness = seen_roughness(factors.y, n);
@@ -213,7 +214,8 @@ vec3 base_radiance(inout vec4 base, vec3 n, vec3 v, inout vec3 added) {
 }
 
 #ifdef WEAR_MAP
-// Of white light from the front, by the metallic-roughness base and by the material's own orders or mirror.
+// Reflectance of white light by the metallic-roughness base; material_reflectance(): by the material's orders or
+// mirror.
 vec3 base_reflectance(vec3 colour, float n_v) {
     vec3 f0 = mix(vec3(0.04), colour, surface_metallic_roughness().x);
 #ifdef MATERIAL_SPECULAR
@@ -226,13 +228,12 @@ vec3 base_reflectance(vec3 colour, float n_v) {
 vec3 material_reflectance() { return vec3(0.0); }
 #endif
 
-// What grease leaves of the material's own light, and what it scatters of that in place of the material, whose base is
-// then as rough.
+// The material's own light under grease: the part that grease covers is replaced by the material's reflectance of the
+// light over the base's lobe, which grease has made rough.
 vec3 greased(vec3 added) { return mix(added, material_reflectance() * lobe_light, wear.grease); }
 #endif
 
-// Writes the surface with what a material adds to and leaves of it: the end of main(), which begins with
-// read_screen_visibility().
+// Writes the surface with the material's terms. main() begins with read_screen_visibility() and ends with this.
 void write_surface(MaterialTerms terms) {
     vec4 base = surface_colour();
     vec3 sum = surface_emission();

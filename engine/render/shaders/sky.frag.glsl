@@ -6,7 +6,8 @@ layout(binding = 0) uniform samplerCube environment_map;
 in vec3 direction;
 layout(location = 0) out vec4 radiance;
 
-// Where the probe's camera saw what the eye sees: on a sphere about that camera or on the floor below it.
+// The direction in which the probe's camera captured what the eye sees: a point of a sphere about that camera, or of
+// the floor below it.
 vec3 from_capture(vec3 seen) {
     vec3 from = eye.xyz - vec3(0.0, dome.x, 0.0);
     float along = dot(from, seen);

@@ -1,5 +1,5 @@
-// The surface at a pixel: what the vertices pass, its maps, and the visibility of light. The program's defines name maps
-// by the texture coordinates they use, uv or uv1 (engine/render/surface_programs.h).
+// The surface at a pixel: what the vertices pass, its maps, and the visibility of light. The program's defines name
+// maps by the texture coordinates they use, uv or uv1 (engine/render/surface_programs.h).
 #include "engine/render/shaders/scene_blocks.h"
 
 const float PI = 3.14159265358979;
@@ -92,9 +92,10 @@ vec3 surface_emission() {
 vec3 surface_emission() { return emissive.rgb; }
 #endif
 
-// Perceptual roughness of a lobe that is widened by what the normals vary within the pixel: GGX's alpha^2 by the sum of
-// the slopes' variances [Tokuyoshi & Kaplanyan 2019], those within the map's texels and that of a box as wide as the
-// pixel. A surface without a normal map is taken as smooth. Uses derivatives: call it in uniform control flow.
+// Perceptual roughness of a lobe that is widened by the variation of the normals within the pixel: the variances of
+// their slopes are added to GGX's alpha^2 [Tokuyoshi & Kaplanyan 2019], both the variance within the map's texels and
+// that over a box as wide as the pixel. Without a normal map, the roughness alone. Uses derivatives: call it in uniform
+// control flow.
 float seen_roughness(float roughness, vec3 n) {
 #ifdef NORMAL_MAP
     float deviation = 2.0 * map_strength.x * normal_texel().a;
@@ -111,7 +112,8 @@ float seen_roughness(float roughness, vec3 n) {
 // Toward the eye, unit.
 vec3 to_eye() { return normalize(eye.xyz - world_position); }
 
-// A normal that does not turn away from the view: an outline's pixel may lie outside its triangle.
+// The normal, bent to n.v = 0 where it faces away from the view: at an outline, a pixel's centre may lie outside its
+// triangle.
 vec3 seen_normal(vec3 n, vec3 v) { return n - min(dot(n, v), 0.0) * v; }
 
 // Fresnel reflectance [Schlick 1994].
@@ -128,7 +130,7 @@ TEXTURE_UNIT(16) uniform sampler2D visibility_map;
 
 vec2 screen_visibility;  // of ambient light, of the light that casts shadows
 
-// From the four nearest texels of the smaller picture, those at the pixel's depth first.
+// Interpolates the four nearest texels of the smaller picture, with larger weights for those at the pixel's depth.
 void read_screen_visibility() {
     vec2 at = gl_FragCoord.xy * dome.zw * vec2(textureSize(visibility_map, 0)) - 0.5;
     ivec2 last = textureSize(visibility_map, 0) - 1;
@@ -160,12 +162,12 @@ TEXTURE_UNIT(2) uniform sampler2D shadow_map;
 TEXTURE_UNIT(2) uniform sampler2DShadow shadow_map;
 #endif
 
-// Four filtered comparisons half a texel apart reach 1.5 texels along each axis. Within that reach, a plane lies at most
-// 1.5 sqrt(2) texels * tan(angle to the light) nearer to the light than at the point; a point lifted by as many texels
-// times the sine stays above it.
+// Four filtered comparisons half a texel apart reach 1.5 texels along each axis. Within that reach, a plane lies at
+// most 1.5 sqrt(2) texels * tan(angle to the light) nearer to the light than at the point; a point lifted by as many
+// texels times the sine stays above it.
 const float SHADOW_LIFT = 2.2;
 
-// A point of a surface of normal n, toward the light, in the map.
+// A surface's point in the map. n: the surface's normal on the light's side; l: toward the light.
 vec3 shadow_coordinates(vec3 position, vec3 n, vec3 l) {
     vec3 lifted = position + n * (SHADOW_LIFT * shadow.x * length(cross(n, l)));
     vec3 at = (world_to_shadow * vec4(lifted, 1.0)).xyz * 0.5 + 0.5;
@@ -192,14 +194,14 @@ vec2 depth_slope(vec3 n) {
     return clamp(across.xy / min(across.z, -1e-6) * -stretch, vec2(-8.0), vec2(8.0));
 }
 
-// Filtered as four texels, of which each is compared by itself.
+// Bilinear filter of four texels' comparisons.
 float shadow_tap(vec3 at) {
     vec4 lit = step(vec4(at.z), textureGather(shadow_map, at.xy));
     vec2 part = fract(at.xy / shadow.y - 0.5);
     return mix(mix(lit.w, lit.z, part.x), mix(lit.x, lit.y, part.x), part.y);
 }
 
-// Fraction of the disc that a point of the map sees; n: toward the light.
+// Fraction of the disc that is visible from a point of the map. n: the surface's normal on the light's side.
 float lit_fraction(vec3 at, vec3 n) {
     vec2 slope = depth_slope(n);
     float reach = clamp(shadow.w * at.z, shadow.y, WIDEST_PENUMBRA * shadow.y);

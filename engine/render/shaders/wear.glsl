@@ -1,6 +1,6 @@
 // Marks of use: dust covers what lies under it, grease scatters what the surface mirrors, and a scratch diffracts light
-// into the directions of one angle to it, as a single slit does. The map and its coverage: engine/scene/wear.h. The
-// program defines WEAR_SCRATCHES where the material has some.
+// as a single slit does, into the cone of directions that have one angle to the scratch. The map and its coverage:
+// engine/scene/wear.h. The program defines WEAR_SCRATCHES where the material has some.
 #ifdef WEAR_MAP
 TEXTURE_UNIT(22) uniform sampler2D wear_map;
 
@@ -13,7 +13,7 @@ const vec3 LAMBDA = vec3(0.61, 0.55, 0.465);  // micrometres, of the working spa
 struct Wear {
     float dust;       // coverage
     float grease;
-    vec3 light;       // what it adds of the scene's lights
+    vec3 light;       // radiance of dust and scratches under the scene's lights
 #ifdef WEAR_SCRATCHES
     float scratched;
     float width;      // of the scratch, micrometres
@@ -28,7 +28,7 @@ Wear wear;
 // 0 for a vector of 0, as where texture coordinates do not change.
 vec3 unit_or_zero(vec3 a) { return a * inversesqrt(max(dot(a, a), 1e-30)); }
 
-// `twice`: cosine and sine of twice the scratch's angle, times its coverage.
+// Reads the scratch at a pixel. `twice`: cosine and sine of twice its angle in the map, times its coverage.
 void read_scratch(vec2 at, vec2 twice, vec3 n, vec3 reflectance) {
     vec2 right = dFdx(at);
     vec2 up = dFdy(at);

@@ -26,7 +26,7 @@ Layer parse_layer(JsonReader& json) {
     return layer;
 }
 
-/// From the outermost down.
+/// The outermost layer first.
 std::vector<Layer> parse_layers(JsonReader& json) {
     constexpr std::size_t kMostLayers = 64;
     std::vector<Layer> layers;
@@ -92,7 +92,7 @@ void write_nodes(const FilmTable& table, ByteWriter& writer) {
     writer.array(std::span<const std::uint32_t>(stored));
 }
 
-/// What write_nodes() writes, into a table that has its size. Nothing may follow.
+/// Reads what write_nodes() writes into a table that has its size. No bytes may follow.
 void read_nodes(ByteReader& reader, FilmTable& table) {
     table.error.largest = reader.value<double>();
     table.error.rms = reader.value<double>();

@@ -55,7 +55,7 @@ CookedFilm read_cooked_film(std::span<const std::byte> payload, const std::strin
 
 inline constexpr std::uint32_t kGltfFilmVersion = 1;
 
-/// The payload of a glTF material's film: its table, without what the film lies on.
+/// The payload of a glTF material's film: its table and range, without the base.
 std::vector<std::byte> write_gltf_film(const FilmMaterial& material, const FilmTable& table);
 
 /// Inverse of write_gltf_film for untrusted bytes. Throws Error (input).

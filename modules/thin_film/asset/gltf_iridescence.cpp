@@ -46,7 +46,7 @@ std::optional<scene::TextureUse> parse_texture(JsonReader& json, const char* key
     return use;
 }
 
-/// Of the material's KHR_materials_ior.
+/// The index of the material's KHR_materials_ior, by default glTF's 1.5.
 double dielectric_ior(const scene::MaterialDescription& description, const std::string& file,
                       const std::string& pointer) {
     const auto found = description.extensions.find(kIorExtension);

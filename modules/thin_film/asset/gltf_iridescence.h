@@ -13,7 +13,7 @@ namespace rowland::thin_film {
 
 /// Khronos' glTF material extension for thin films.
 inline constexpr const char* kIridescenceExtension = "KHR_materials_iridescence";
-/// That of a dielectric's index of refraction: the base under a film.
+/// Khronos' glTF material extension for the index of refraction of a dielectric, here the base under a film.
 inline constexpr const char* kIorExtension = "KHR_materials_ior";
 
 /// A material's KHR_materials_iridescence object.
@@ -31,14 +31,14 @@ struct GltfIridescence {
 /// Parses the extension's object. Other extras and extensions are ignored. Throws Error (input).
 GltfIridescence parse_gltf_iridescence(const nlohmann::json& json, const std::string& file, const std::string& pointer);
 
-/// The index of a KHR_materials_ior object, 1.5 if it does not say. 0, which that extension allows, stands for an
-/// infinite one: a very large one. Throws Error (input).
+/// The index of a KHR_materials_ior object; 1.5 by default. For 0, by which the extension means an infinite index, it
+/// is 1e6. Throws Error (input).
 double parse_gltf_ior(const nlohmann::json& json, const std::string& file, const std::string& pointer);
 
 /// A film material file's object as a glTF holds it: KHR_materials_iridescence, with the exact base and the illuminant
-/// in its extras. "roughness" is left out: it is the glTF material's own. A thickness texture that is added reaches
-/// from 0 to the film's thickness. `material` is sane (parse_film_material()). Throws Error (input) naming `file` for
-/// what the extension cannot hold: several layers, or one that absorbs.
+/// in its extras. "roughness" is left out: the glTF material has it. A thickness texture, if one is added, varies the
+/// thickness from 0 to the film's. `material` must have passed parse_film_material(). Throws Error (input) naming
+/// `file` for what the extension cannot hold: several layers, or one that absorbs.
 nlohmann::ordered_json gltf_object(const nlohmann::ordered_json& material, const std::string& file);
 
 /// "100 to 400 nm of ior 1.3, factor 1"

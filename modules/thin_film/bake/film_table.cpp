@@ -16,7 +16,8 @@ namespace rowland::thin_film {
 
 namespace {
 
-/// Of the path difference: a 26th of the shortest visible fringe, where a cubic is 1e-4 of its height off.
+/// Step of the path difference: a 25th of the shortest visible wavelength, at which a cubic is off by 1e-4 of a
+/// fringe's height.
 constexpr double kPathStep_nm = 15.0;
 
 /// Weights of four equidistant nodes at 0 to 3 for a value at `at` (Lagrange).
@@ -60,15 +61,16 @@ glm::dmat3 RoughFilm::average(std::span<const double> angles, double thickness_n
 
 namespace {
 
-/// Thicker films than this are not asked for, and it keeps a film of index 1, in which x does not reach 0, finite.
+/// Limit of a node's thickness, above all that are asked for: at grazing incidence in a film of index 1, x is 0 for
+/// every thickness, so that the nodes of larger x have none.
 constexpr double kThickest_nm = 1e7;
 
 /// The error is measured from this cosine on: nearer to grazing incidence a film's fringes are as sharp as a
 /// resonator's, and few pixels show them.
 constexpr double kLeastMeasuredCosine = 0.05;
-constexpr std::size_t kMeasuredCosines = 101;  // in step with no table
+constexpr std::size_t kMeasuredCosines = 101;  // these cosines coincide with the columns of no table
 
-/// Coordinates of the columns and the rows, of which they are equal steps. PHYSICS (4.2).
+/// Coordinates of which columns and rows are equal steps. PHYSICS (4.2).
 double column_coordinate(double cosine) {
     return std::sqrt(cosine + FilmTable::kCosineOffset);
 }
@@ -129,8 +131,8 @@ double square(double x) {
     return x * x;
 }
 
-/// Moves the nodes along one axis so that the largest distance of the lines between them from the curve is least: by
-/// 1/16 of the second difference. PHYSICS §4.
+/// Moves the nodes along one axis by 1/16 of the second difference, which minimises the largest error of the linear
+/// interpolation between them. PHYSICS §4.
 void fit_nodes(std::vector<glm::mat3>& values, std::size_t stride, std::size_t count) {
     const std::vector<glm::mat3> nodes = values;
     for (std::size_t i = 0; i < values.size(); ++i) {
@@ -161,8 +163,8 @@ void fill(const Averages& averages, FilmTable& table) {
     for (glm::mat3& value : table.values) value = to_stored(value);
 }
 
-/// The roughnesses that a range asks for: 0, for light from one direction, and layers and the middles between them, or
-/// even steps.
+/// The roughnesses at which the error is measured: 0, which light from one direction takes, and those of the range at
+/// layers and midway between them or, by lobe nodes, in even steps.
 std::vector<double> measured_roughnesses(const FilmTable& table, const TableRange& range) {
     std::vector<double> result = {0.0};
     for (int half_layer = 1; half_layer <= 2 * (table.layers - 1); ++half_layer)
@@ -183,7 +185,7 @@ TableError measure(const Averages& averages, const FilmTable& table, const Table
         const double cosine = square(root + (1.0 - root) * (step + 0.5) / kMeasuredCosines);
         const double roughness = roughnesses[i / kMeasuredCosines];
         std::vector<double> thicknesses_nm;
-        const bool smoothed = table.by_lobe_nodes && roughness > 0.0;  // needs fewer steps, which take time
+        const bool smoothed = table.by_lobe_nodes && roughness > 0.0;  // fewer steps suffice; each takes time
         const int steps = range.thickest_nm > range.thinnest_nm ? (smoothed ? 1 : 3) * table.rows : 0;
         for (int j = 0; j <= steps; ++j)
             thicknesses_nm.push_back(range.thinnest_nm +
@@ -299,7 +301,7 @@ FilmTable empty_table(const Film& film, const TableRange& range, const TableSize
 FilmTable bake_table(const FilmColour& colour, const TableRange& range, const TableSize& size) {
     FilmTable table = empty_table(colour.film(), range, size);
     const bool rough = range.roughest > 0.0;
-    // What a node of another angle but the same path difference needs.
+    // The nodes of a row have one path difference: at other angles they have thicknesses beyond the range.
     const double spread =
         path_difference(table.index, 1.0, 1.0) / std::max(path_difference(table.index, 1.0, 0.0), 1e-9);
     const double reach = table.rows > 1 ? std::min(spread, 2.0) : 1.0;

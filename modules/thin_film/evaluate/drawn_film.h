@@ -14,7 +14,7 @@ enum class Reflections {
 };
 
 /// XYZ radiance toward v of a film of this thickness and perceptual roughness, as the shader computes it. n and v are
-/// unit, world axes, n·v > 0. Roughnesses are 0 or those of the table's range.
+/// unit, world axes, n·v > 0. `roughness`: 0, or in the table's range.
 glm::dvec3 drawn_radiance(const FilmTable& table, double thickness_nm, double roughness,
                           const lighting::EnvironmentMap& environment, const glm::dvec3& n, const glm::dvec3& v,
                           Reflections reflections);

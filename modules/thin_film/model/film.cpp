@@ -43,13 +43,13 @@ using Complex = std::complex<double>;
 /// Nearer to grazing incidence the quotients of PHYSICS (2.1) are 0/0 to rounding.
 constexpr double kLeastCosine = 1e-9;
 
-/// A medium, and the part of the wave vector across the faces over that in vacuum: q = n cos θ.
+/// A medium, and the wave vector's component across the faces over the wavenumber in vacuum: q = n cos θ.
 struct Medium {
     Complex index;
     Complex q;
 };
 
-/// n² − sin²θ without cancellation. The root in the first quadrant: what runs into the base decays there.
+/// q² = n² − sin²θ, without cancellation. The root is in the first quadrant, so that waves into the base decay.
 Medium medium(Complex index, double cosine) {
     return {index, std::sqrt((index - 1.0) * (index + 1.0) + cosine * cosine)};
 }
@@ -64,23 +64,23 @@ Complex face(const Medium& above, const Medium& below, Polarisation polarisation
     return (a - b) / (a + b);
 }
 
-/// PHYSICS (2.2). `turned`: what the layer's lower face reflects, with the phase of the way there and back.
-Complex airy(Complex first, Complex turned) {
-    return (first + turned) / (1.0 + first * turned);
+/// PHYSICS (2.2). `delayed`: what the layer's lower face reflects, with the phase of the way there and back.
+Complex airy(Complex first, Complex delayed) {
+    return (first + delayed) / (1.0 + first * delayed);
 }
 
 Complex phase_per_nm(const Medium& layer, double wavelength_nm) {
     return Complex(0.0, 4.0 * std::numbers::pi / wavelength_nm) * layer.q;
 }
 
-/// Amplitude of all layers and the base, for light that arrives in `above`.
+/// Amplitude that all layers and the base reflect of light that arrives in `above`.
 Complex stack(Medium above, std::span<const Layer> layers, Complex base, double wavelength_nm, double cosine,
               Polarisation polarisation) {
     if (layers.empty()) return face(above, medium(base, cosine), polarisation);
     const Medium layer = medium(layers.front().index, cosine);
     const Complex below = stack(layer, layers.subspan(1), base, wavelength_nm, cosine, polarisation);
-    const Complex turn = std::exp(phase_per_nm(layer, wavelength_nm) * layers.front().thickness_nm);
-    return airy(face(above, layer, polarisation), below * turn);
+    const Complex phase = std::exp(phase_per_nm(layer, wavelength_nm) * layers.front().thickness_nm);
+    return airy(face(above, layer, polarisation), below * phase);
 }
 
 double mean_intensity(Complex s, Complex p) {
@@ -104,8 +104,8 @@ LayersAtAngle::LayersAtAngle(std::span<const Layer> layers, std::complex<double>
 }
 
 double LayersAtAngle::reflectance(double outermost_thickness_nm) const {
-    const Complex turn = std::exp(phase_per_nm_ * outermost_thickness_nm);
-    return mean_intensity(airy(s_.first, s_.below * turn), airy(p_.first, p_.below * turn));
+    const Complex phase = std::exp(phase_per_nm_ * outermost_thickness_nm);
+    return mean_intensity(airy(s_.first, s_.below * phase), airy(p_.first, p_.below * phase));
 }
 
 double reflectance(std::span<const Layer> layers, std::complex<double> base, double wavelength_nm, double cosine) {

@@ -44,7 +44,7 @@ std::complex<double> base_index(const Base& base, double wavelength_nm);
 /// Layers on a base under light of one wavelength and angle, for any thickness of the outermost layer.
 class LayersAtAngle {
  public:
-    /// `cosine` ∈ [0, 1]: of the angle of incidence in air. There is a layer.
+    /// `cosine` ∈ [0, 1]: of the angle of incidence in air. At least one layer.
     LayersAtAngle(std::span<const Layer> layers, std::complex<double> base, double wavelength_nm, double cosine);
 
     /// Fraction of unpolarised light that is reflected, in [0, 1]. PHYSICS (2.1), (2.2).
@@ -52,8 +52,8 @@ class LayersAtAngle {
 
  private:
     struct Amplitudes {
-        std::complex<double> first;  ///< of the outermost face
-        std::complex<double> below;  ///< of all below the outermost layer
+        std::complex<double> first;  ///< reflected by the outermost face
+        std::complex<double> below;  ///< reflected by all below the outermost layer
     };
     Amplitudes s_;
     Amplitudes p_;
@@ -67,11 +67,11 @@ double reflectance(std::span<const Layer> layers, std::complex<double> base, dou
 /// The same of a film, whose base depends on the wavelength.
 double reflectance(const Film& film, double wavelength_nm, double cosine);
 
-/// M: linear RGB of light → XYZ of what a film reflects of it. PHYSICS (4.1). Exact for a smooth surface under light
-/// that LightSpectra describes.
+/// M: linear Rec.709 of light → XYZ of what a film reflects of it. PHYSICS (4.1). Exact for a smooth surface under
+/// light that LightSpectra describes.
 class FilmColour {
  public:
-    /// The film has a layer.
+    /// The film must have at least one layer.
     FilmColour(const Film& film, const colour::LightSpectra& spectra);
 
     /// M at one angle, for any thickness of the outermost layer.

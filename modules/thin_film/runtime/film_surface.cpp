@@ -27,7 +27,7 @@ bool is_line(const FilmTable& table) {
     return table.rows == 1 && table.layers <= 2;
 }
 
-/// One thickness; the roughness varies along the texture's rows.
+/// Whether the table has one thickness, and its roughness varies along the texture's rows.
 bool has_roughnesses(const FilmTable& table) {
     return table.layers > 2;
 }
@@ -45,7 +45,7 @@ std::vector<glm::vec4> working_columns(const FilmTable& table, const glm::dmat3&
     return columns;
 }
 
-/// Software renderers read floats faster than halves.
+/// In 32-bit floats: software renderers read them faster than halves.
 gpu::Texture upload(const FilmTable& table, const glm::dmat3& xyz_to_working) {
     const int slices = 3 * table.layers;
     const bool line = is_line(table);

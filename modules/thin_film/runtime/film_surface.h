@@ -27,11 +27,11 @@ inline constexpr unsigned kThicknessMapUnit = 10;
 /// A film's table on the GPU, in the working space.
 class GpuFilm {
  public:
-    /// `illuminant`: the name of that which the table was baked for.
+    /// `illuminant`: the name of the one that the table was baked for.
     GpuFilm(const FilmTable& table, const glm::dmat3& xyz_to_working, std::string illuminant);
 
     void bind(const gpu::Program& program) const;
-    /// Of the shaders that read it.
+    /// For the shaders that read it.
     const std::vector<gpu::Define>& defines() const { return defines_; }
     const std::string& illuminant() const { return illuminant_; }
 
@@ -43,8 +43,9 @@ class GpuFilm {
     std::string illuminant_;
 };
 
-/// Component: a film over the entity's StandardMaterial. The table decides what the film lies on: the material's
-/// metallic factor and colour are those of its diffuse base.
+/// Component: a film over the entity's StandardMaterial. What the film and its base reflect is in the table; the
+/// material's colour and metallic factor give the diffuse light from below and, under a factor below 1, the bare
+/// surface.
 struct FilmSurface {
     std::shared_ptr<const GpuFilm> film = nullptr;
     float factor = 1.0F;                            ///< 0: no film
@@ -54,12 +55,13 @@ struct FilmSurface {
     render::SurfaceTexture thickness_texture = {};  ///< G
 };
 
-/// Gives an entity, which already has its StandardMaterial, a cooked film: its roughness, and black below.
-/// `xyz_to_working` as the renderer's.
+/// Gives an entity, which already has its StandardMaterial, a cooked film. The material gets the film's roughness,
+/// black below it and no clear coat. `xyz_to_working`: the renderer's.
 void add_film(ecs::World& world, ecs::Entity entity, const CookedFilm& cooked, const glm::dmat3& xyz_to_working);
 
-/// The same for the film of a glTF's material; null: it is not drawn. `textures`: those of the glTF. `file` and
-/// `pointer`, the JSON pointer of the extension, are for messages. Throws Error (input) for a missing texture.
+/// The same for the film of a glTF's material, which keeps its roughness and colour; null: it is not drawn. `textures`:
+/// those of the glTF. `file` and `pointer`, the JSON pointer of the extension, are for messages. Throws Error (input)
+/// for a missing texture.
 void add_film(ecs::World& world, ecs::Entity entity, const GltfIridescence& iridescence,
               std::shared_ptr<const GpuFilm> film, render::SurfaceTextures& textures, const std::string& file,
               const std::string& pointer);
@@ -67,13 +69,13 @@ void add_film(ecs::World& world, ecs::Entity entity, const GltfIridescence& irid
 /// Draws entities that have a FilmSurface, and reads KHR_materials_iridescence.
 class FilmSurfaceType final : public render::MaterialType {
  public:
-    /// `xyz_to_working` as the renderer's.
+    /// `xyz_to_working`: the renderer's.
     explicit FilmSurfaceType(const glm::dmat3& xyz_to_working) : xyz_to_working_(xyz_to_working) {}
 
     std::string name() const override { return "thin film"; }
     std::string gltf_extension() const override;
     std::vector<std::string> gltf_extensions_beside() const override;
-    /// Equal films share their tables.
+    /// Entities with equal tables share one GpuFilm.
     void attach(ecs::World& world, ecs::Entity entity, const render::MaterialExtension& extension,
                 render::SurfaceTextures& textures) override;
 

@@ -24,7 +24,7 @@ uniform vec4 film_uv_offset;    // xy, zw: likewise
 float factor;  // of this pixel
 float thickness;
 mat3x4 seen;   // M of the lobe that the view sees
-vec3 passing;  // of white light
+vec3 passing;  // fraction of white light that the film transmits
 
 vec2 film_uv(int map, vec2 uv) {
     return film_uv_linear[map].xy * uv.x + film_uv_linear[map].zw * uv.y + (map == 0 ? film_uv_offset.xy : film_uv_offset.zw);
@@ -44,7 +44,7 @@ void read_film() {
 vec3 transmittance(float n_v, float roughness) {
     seen = film_lobe(n_v, thickness, roughness);
 #ifdef FILM_ON_BLACK
-    passing = vec3(0.0);  // nothing is seen of it
+    passing = vec3(0.0);  // the base absorbs it
 #else
     passing = clamp(1.0 - factor * vec3(seen[0].w, seen[1].w, seen[2].w), 0.0, 1.0);
 #endif
@@ -55,7 +55,7 @@ vec3 transmittance(float n_v, float roughness) {
 vec3 background_weight() { return (1.0 - surface_colour().a) * passing; }
 #endif
 
-// Of the film, where there is one, and of the bare surface.
+// The reflection with a film on the fraction `factor` of the surface.
 vec3 with_factor(vec3 bare, vec3 film) {
 #ifdef FILM_WHOLE
     return max(film, 0.0);

@@ -16,7 +16,7 @@ constexpr To bit_cast(const From& from) {
     return __builtin_bit_cast(To, from);
 }
 
-/// A decimal number.
+/// Of a decimal number.
 inline from_chars_result from_chars(const char* begin, const char* end, double& value) {
     const string text(begin, end);
     char* after = nullptr;
@@ -42,7 +42,7 @@ bool binary_search(const Range& range, const Value& value) {
     return std::binary_search(range.begin(), range.end(), value);
 }
 
-/// By what `projection` gives, ascending.
+/// Sorts by the projection, ascending.
 template <typename Range, typename Projection>
 void sort(Range& range, std::less<>, Projection projection) {
     std::sort(range.begin(), range.end(), [&](const auto& a, const auto& b) { return projection(a) < projection(b); });

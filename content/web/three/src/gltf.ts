@@ -27,7 +27,7 @@ export class GratingExtension implements GLTFLoaderPlugin {
         if (grating.grooveTexture) await this.parser.assignTexture(parameters, "grooveTexture", grating.grooveTexture);
     }
 
-    /** A material for each mesh, as its map follows the mesh; one for flat parts of a mesh that face the same way. */
+    /** Gives each mesh a material, since its map follows the mesh; flat parts of it that face one way share one. */
     async afterRoot(gltf: GLTF): Promise<void> {
         const seen = new Set<GratingMaterial>();
         for (const scene of gltf.scenes)

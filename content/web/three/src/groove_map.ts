@@ -11,11 +11,11 @@ import { toHalf } from "./half.js";
 export interface GrooveMap {
     readonly moments: DataTexture;
     readonly rest: DataTexture;
-    /** Of the pitches, over the material's. */
+    /** The smallest and the largest pitch, over the material's. */
     readonly smallest: number;
     readonly largest: number;
     readonly gaps: boolean;
-    /** Radians at texture coordinates, of the texture's largest level. */
+    /** The grooves' rotation at texture coordinates, in radians, from the texture's largest level. */
     rotation(u: number, v: number): number;
 }
 
@@ -43,7 +43,7 @@ function bytesOf(texture: Texture): { data: ArrayLike<number>; width: number; he
     return { data: flipped, width, height };
 }
 
-/** Half as wide and high, rounded down; linear between the centres of texels. */
+/** A level of half the width and height, rounded down: linear between the centres of texels. */
 function halved({ width, height, data }: Level): Level {
     const to = { width: Math.max(1, width >> 1), height: Math.max(1, height >> 1) };
     const half = new Float32Array(4 * to.width * to.height);
@@ -116,7 +116,7 @@ function rotationAt({ bytes, width, height, nearest, like }: { bytes: ArrayLike<
     return inRow(row) + (y - row) * (inRow(row + 1) - inRow(row));
 }
 
-/** The rotation of a groove texture at each vertex. `texture`: whose coordinates and transform it has. */
+/** The rotation of a groove texture at each vertex. `texture`: gives the texture coordinates and their transform. */
 export function rotationsOf({ rotation }: GrooveMap, texture: Texture, geometry: BufferGeometry): number[] {
     const coordinates = geometry.getAttribute(texture.channel === 0 ? "uv" : "uv1");
     const at = new Vector2();

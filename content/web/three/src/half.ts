@@ -3,7 +3,7 @@
 const bits = new Uint32Array(1);
 const value = new Float32Array(bits.buffer);
 
-/** The nearest half float's bits; halves end at 65504. */
+/** Bits of the nearest half float; beyond ±65504, of the nearest finite one. */
 export function toHalf(x: number): number {
     value[0] = Math.max(-65504, Math.min(65504, x));
     const whole = bits[0];
@@ -22,7 +22,7 @@ export interface Halves {
     readonly scale: number; // of the stored values
 }
 
-/** RGB floats as RGBA halves, divided by the largest of them. */
+/** RGB floats as RGBA halves, divided by the largest magnitude. */
 export function packRgb(floats: Float32Array): Halves {
     let scale = 1e-30;
     for (const x of floats) scale = Math.max(scale, Math.abs(x));

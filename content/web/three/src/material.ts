@@ -18,13 +18,13 @@ export interface GratingParameters extends MeshPhysicalMaterialParameters {
     /** A material file's JSON, or the object of ROWLAND_materials_diffraction. */
     grating?: object;
     /**
-     * Of a grating of rigorous theory; without them a worker solves Maxwell's equations, and scalar theory shows until then.
+     * Of a grating of rigorous theory. Without them a worker computes them; scalar theory shows until then.
      * Numbers: as Tasks.solve() gives them.
      */
     efficiencies?: Efficiencies | Float32Array;
-    /** Of the mesh: "tangent" if it has tangents, else "radial". */
+    /** By default "tangent" for meshes with tangents, else "radial". */
     grooves?: Grooves;
-    /** "planar" for flat meshes, else "arc". */
+    /** By default "planar" for flat meshes, else "arc". */
     representation?: Representation;
     /** Varies the grooves over the surface. R: rotation / π; G: half the pitch over the grating's; 0: no grating. */
     grooveTexture?: Texture;
@@ -33,7 +33,7 @@ export interface GratingParameters extends MeshPhysicalMaterialParameters {
 const BANDS = 5;
 /** A plane that tilts by less keeps its map. */
 const STEADY = 1e-3;
-/** For so many key lights a program has room; it is compiled again for more. */
+/** Number of key lights that a program has room for; it is compiled again for more. */
 const KEY_LIGHTS = 16;
 /** Smaller relative differences of the pitch are ignored, as by runtime/groove_map.cpp. */
 const SAME_PITCH = 0.01;
@@ -47,17 +47,17 @@ const FACT = {
 let materials = 0;
 
 /**
- * MeshPhysicalMaterial under a diffraction grating. The physical material is the layer beneath it. Under `rowland`'s
- * probe and three's lights; until its first map or table arrives it draws the layer alone. One material for
- * each mesh: its map follows the mesh.
+ * MeshPhysicalMaterial under a diffraction grating. The physical material is the layer beneath it. `rowland`'s probe
+ * and three's lights light both; until the first map or table arrives, only the layer is drawn. Each mesh needs a
+ * material for itself, since the map follows the mesh.
  */
 export class GratingMaterial extends MeshPhysicalMaterial {
     readonly isGratingMaterial = true;
-    /** When the kernel is there; rejects for a bad material. */
+    /** Resolves when the kernel is there; rejects for a bad material. */
     ready: Promise<void> = Promise.resolve();
-    /** When the efficiencies of its theory are there: those of rigorous theory seconds after scalar theory's. */
+    /** Resolves when the efficiencies of its theory are there; for rigorous theory, seconds after `ready`. */
     solved: Promise<void> = Promise.resolve();
-    /** When the light shown is that of the current probe and plane. */
+    /** Resolves when the light shown is that of the current probe and plane. */
     settled: Promise<void> = Promise.resolve();
 
     private rowland?: Rowland;
@@ -80,7 +80,7 @@ export class GratingMaterial extends MeshPhysicalMaterial {
     private busy = false;
     private leave?: () => void;
     private readonly uniforms: Record<string, IUniform> = {};
-    private readonly wanted = new Map<string, string | undefined>(); // defines, from when ROWLAND is one of them
+    private readonly wanted = new Map<string, string | undefined>(); // defines; applied once ROWLAND is one of them
 
     constructor({ rowland, grating, efficiencies, grooves, representation, grooveTexture, ...physical }: GratingParameters = {}) {
         super({ color: 0x000000, roughness: 0.3, ...physical });
@@ -97,7 +97,7 @@ export class GratingMaterial extends MeshPhysicalMaterial {
         return this;
     }
 
-    /** Another grating on the same mesh, as sliders ask for it. */
+    /** Sets the grating, also another one on the same mesh, as sliders do. */
     bake(rowland: Rowland, grating: object, efficiencies?: Efficiencies | Float32Array): void {
         this.rowland = rowland;
         this.grating = grating;
@@ -206,7 +206,7 @@ export class GratingMaterial extends MeshPhysicalMaterial {
         this.flag("GROOVES_EVEN", even);
     }
 
-    /** Of a groove texture that varies them. */
+    /** Of a groove texture, if it varies them; else null. */
     private get pitches(): Pitches | null {
         if (!this.grooveMap) return null;
         const { smallest, largest } = this.grooveMap;
@@ -246,7 +246,7 @@ export class GratingMaterial extends MeshPhysicalMaterial {
         return this.tables!.facts[FACT.lobe] === 0;
     }
 
-    /** `show`: what goes with the first map. */
+    /** `show`: called just before the first map is shown. */
     private async showPlane(normal: Vector3, show: () => void): Promise<void> {
         const rowland = this.rowland!;
         this.normalShown = normal;
@@ -287,7 +287,7 @@ export class GratingMaterial extends MeshPhysicalMaterial {
         rowland.onUpdate();
     }
 
-    /** Brings the tables up to the light and to where the object is. Key lights change together with the map or table. */
+    /** Updates the map or table for the light and the object's pose, and the key lights together with it. */
     private async settle(geometry: BufferGeometry, object: Object3D): Promise<void> {
         const rowland = this.rowland!;
         let keyLobes: Float32Array | undefined;
@@ -303,10 +303,11 @@ export class GratingMaterial extends MeshPhysicalMaterial {
             this.mapped = true;
         };
         const flat = flatNormal(geometry);
-        // A flat mesh that follows a texture has a map; its table would be of vertices.
+        // A flat mesh has a map even under a groove texture: a table's products are per vertex and would miss the
+        // texture.
         const kind = this.representation ?? (flat ? "planar" : "arc");
         if (kind === "planar" && flat) return this.showPlane(worldNormal(flat, object), show);
-        if (kind !== "direct" && rowland.preview) return; // a table is made of the light's final parts
+        if (kind !== "direct" && rowland.preview) return; // a table waits for the key lights
         if (kind !== "direct") return this.showArc(geometry, object, show);
         show();
         rowland.onUpdate();
@@ -358,7 +359,7 @@ export class GratingMaterial extends MeshPhysicalMaterial {
 
     /**
      * The ground truth under the probe, linear Rec.709: a sum over wavelengths along arcs of the probe's texels, without
-     * tables. Nine numbers a point, as pointFrame() gives them. Takes milliseconds a point.
+     * tables. Nine numbers per point, as pointFrame() gives them. Takes milliseconds per point.
      */
     async reference(points: Float32Array): Promise<Float32Array> {
         await this.solved;
@@ -371,7 +372,7 @@ export class GratingMaterial extends MeshPhysicalMaterial {
         return pointFrame(hit, this.grooves ?? groovesOf(hit.object.geometry), turn, camera);
     }
 
-    /** Texture look-ups a pixel: for the light of the probe without its key lights. */
+    /** Texture look-ups per pixel for the light of the probe without its key lights. */
     get price(): { map: number } {
         return { map: this.wanted.get("ROWLAND_ARC") ? Number(this.wanted.get("LAYERS")) : this.representation === "direct" ? 0 : 1 };
     }
@@ -397,7 +398,7 @@ export class GratingMaterial extends MeshPhysicalMaterial {
             only("vec3 mirrored = vec3(0.0);\n#ifdef USE_ENVMAP\n" +
                 "mirrored = getIBLRadiance(geometryViewDir, normal, 0.0);\n#endif\n" +
                 "outgoingLight = grating_surface(totalDiffuse + totalSpecular, mirrored) + totalEmissiveRadiance;"),
-            // Purer than the screen's colours: paled until it can show them.
+            // Colours outside the screen's gamut are desaturated until no component is negative.
             "#if defined(ROWLAND) && !defined(ROWLAND_UNCOMPRESSED) && !defined(ROWLAND_DIFFRACTION_ONLY)\n" +
                 "gl_FragColor.rgb -= min(min(gl_FragColor.r, gl_FragColor.g), min(gl_FragColor.b, 0.0));\n#endif");
         shader.fragmentShader = fragment;

@@ -23,7 +23,7 @@ export class BakeModule {
         const imports: WebAssembly.Imports = {};
         for (const { module: from, name } of WebAssembly.Module.imports(module)) {
             imports[from] ??= {};
-            // What the C++ library asks of a system that a page does not have is never reached.
+            // Other imports are system calls of the C++ library, which are never reached.
             imports[from][name] = from === "worker" ? worker[name] : from === "Math" ? (Math[name as keyof Math] as () => number) : () => 0;
         }
         const instance = await WebAssembly.instantiate(module, imports);
@@ -36,7 +36,7 @@ export class BakeModule {
         return (this.exports[name] as Export)(...numbers);
     }
 
-    /** The address of a copy. */
+    /** Copies bytes into the module's memory and returns their address. */
     put(bytes: Uint8Array): number {
         const address = this.call("room", bytes.length);
         new Uint8Array(this.memory.buffer).set(bytes, address);
@@ -47,7 +47,7 @@ export class BakeModule {
         return this.put(new Uint8Array(floats.buffer, floats.byteOffset, floats.byteLength));
     }
 
-    /** What a call gives back. */
+    /** Calls an export that returns Numbers, and copies and releases them. */
     numbers(name: string, ...numbers: number[]): Float32Array {
         const list = this.call(name, ...numbers);
         const begin = this.call("numbers_begin", list);

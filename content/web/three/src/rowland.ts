@@ -11,7 +11,7 @@ export function texelsOf(texture: Texture): { texels: Float32Array; width: numbe
     const texels = new Float32Array(3 * width * height);
     const number = texture.type === HalfFloatType ? DataUtils.fromHalfFloat : (x: number) => x;
     for (let row = 0; row < height; ++row) {
-        // Rows of a texture that is not flipped on upload ascend.
+        // Row 0 of a texture that is not flipped on upload is at the bottom.
         const from = texture.flipY ? row : height - 1 - row;
         for (let column = 0; column < width; ++column)
             for (let c = 0; c < 3; ++c)
@@ -29,7 +29,7 @@ export interface Efficiencies {
     /** The first wavelength, and the step to the next. */
     readonly begin_nm: number;
     readonly step_nm: number;
-    /** The v_g of the nodes. */
+    /** v_g at the nodes. */
     readonly views: readonly number[];
     /** [orders, wavelengths, views] */
     readonly values: Float32Array;
@@ -39,7 +39,7 @@ export interface Efficiencies {
 const numbersOf = ({ orders, begin_nm, step_nm, views, values }: Efficiencies) =>
     Float32Array.from([begin_nm, step_nm, views.length, orders.length, ...orders, ...values]);
 
-/** What has a worker of its own: what takes seconds holds up no maps. */
+/** Kinds of work. Each has a worker, so that work of seconds does not delay maps. */
 type Work = "maps" | "keys" | "tables" | "truth" | "efficiencies";
 
 /** The workers that bake materials and light. One Rowland for a page. */
@@ -51,15 +51,15 @@ export class Rowland {
     private rest?: { light: number; sh: Promise<Float32Array> }; // without the key lights
     private keys: Float32Array = new Float32Array();
     private referenceImage?: { light: number; sent: Promise<void> };
-    /** Called when a picture would be another than before: draw. */
+    /** Called when the picture changes and is to be drawn again. */
     onUpdate: () => void = () => {};
     /** Called when the workers have no tasks left. */
     onIdle: () => void = () => {};
-    /** Called with what a material or its light could not be baked for. */
+    /** Called with the error for which a material or its light could not be baked. */
     onError: (error: Error) => void = (error) => console.error(error);
-    /** Rises when the light is another. */
+    /** Increases when the light changes. */
     lightVersion = 0;
-    /** Whether its bright parts are still to be found. */
+    /** Whether the light's key lights are still to be found. */
     preview = false;
     private newestLight = 0;
     private readonly materials = new Set<() => void>();
@@ -75,8 +75,8 @@ export class Rowland {
     }
 
     /**
-     * Sets the light: an equirectangular texture of floats or halves. Its bright parts become `keyLights` sharp lights;
-     * until they are found, a second later, it is seen as a whole in coarse maps. "later": until setKeyLights().
+     * Sets the light: an equirectangular texture of floats or halves. Its bright parts become `keyLights` sharp lights.
+     * Until they are found, in about a second, coarse maps show all of the light; with "later", until setKeyLights().
      */
     async setProbe(texture: Texture, { keyLights = 16 }: { keyLights?: number | "later" } = {}): Promise<void> {
         const { texels, width, height } = texelsOf(texture);
@@ -88,8 +88,8 @@ export class Rowland {
     }
 
     /**
-     * Takes the bright parts out of the light: so many of them, which takes a second, or those of an earlier
-     * fitKeyLights() under the same light.
+     * Takes bright parts out of the light as sharp lights: at most this many, found in about a second, or those of an
+     * earlier fitKeyLights() under the same light.
      */
     async setKeyLights(keyLights: number | Float32Array): Promise<void> {
         const light = this.newestLight;
@@ -117,7 +117,7 @@ export class Rowland {
         return this.newestLight > 0;
     }
 
-    /** @internal What a change of the light calls, until the returned function is. */
+    /** @internal Calls `change` at each change of the light, until the returned function is called. */
     follow(change: () => void): () => void {
         this.materials.add(change);
         return () => this.materials.delete(change);

@@ -3,7 +3,7 @@ export class TaskWorker {
     private readonly waiting = new Map<number, { resolve: (result: never) => void; reject: (error: Error) => void }>();
     private next = 1;
 
-    /** `onIdle`: when no call is left, and none was made of the last's result. */
+    /** `onIdle`: called when no call is pending and the last result has led to no other call. */
     constructor(private readonly worker: Worker, onIdle: () => void) {
         worker.onmessage = ({ data }) => {
             const waiting = this.waiting.get(data.id);

@@ -1,9 +1,9 @@
-/** What the worker computes, and the tables that it gives back. */
+/** What the worker computes, and the tables that it returns. */
 
 import { packRgb, toHalf, type Halves } from "./half.js";
 import { BakeModule } from "./module.js";
 
-/** Of a texture; RGBA halves. */
+/** The texels of a texture, RGBA halves. */
 export interface Table extends Halves {
     readonly width: number;
     readonly height: number;
@@ -41,10 +41,10 @@ export interface ArcTables {
     readonly pitch: number[]; // scale and bias of a table over pitches
 }
 
-/** Map sizes: what is shown first, then in full. */
+/** Map sizes: a coarse map is shown first, then the full one. */
 export type Detail = "coarse" | "full";
 
-/** The smallest and the largest that a texture gives, over the material's. */
+/** The smallest and the largest pitch of a groove texture, over the material's. */
 export type Pitches = readonly [number, number];
 
 const MOST_TEXELS = 2048;
@@ -67,7 +67,7 @@ function table(width: number, height: number, depth: number, rgb: Float32Array):
 type ModuleName = "bake" | "arc" | "reference" | "solve";
 export type Fetch = (name: ModuleName) => Promise<BufferSource>;
 
-/** Materials and probes by number, in the modules' memory. One probe is kept. A worker has one of them. */
+/** The tasks of one worker. Materials, by number, and one probe are kept in the modules' memory. */
 export class Tasks {
     private readonly modules = new Map<string, Promise<BakeModule>>();
     private readonly baked = new Map<number, number>();
@@ -91,7 +91,7 @@ export class Tasks {
         return material;
     }
 
-    /** Of rigorous theory without its efficiencies: by scalar theory. */
+    /** Bakes a material. One of rigorous theory without its efficiencies is baked by scalar theory. */
     async material(id: number, source: Source): Promise<MaterialTables> {
         const bake = await this.module("bake");
         const material = Tasks.read(bake, source);
@@ -108,25 +108,25 @@ export class Tasks {
         };
     }
 
-    /** The efficiencies of a source, by Maxwell's equations: seconds. */
+    /** The efficiencies of MaterialTables.relief, by Maxwell's equations. Takes seconds. */
     async solve(relief: Float32Array): Promise<Float32Array> {
         return (await this.module("solve")).numbers("solve", ...relief);
     }
 
-    /** `texels`: RGB, linear Rec.709, row 0 at the top. */
+    /** Sets the probe. `texels`: RGB, linear Rec.709, row 0 at the top. */
     async light(texels: Float32Array, width: number, height: number): Promise<void> {
         const bake = await this.module("bake");
         if (this.probe !== 0) bake.call("release_probe", this.probe);
         this.probe = bake.call("read_probe", bake.putFloats(texels), width, height);
     }
 
-    /** The brightest parts of an image: probeTexels(). A second. */
+    /** Key lights for the brightest parts of an image. `probe`: of probeTexels(). Takes about a second. */
     async fitKeyLights(probe: Float32Array, count: number): Promise<Float32Array> {
         const bake = await this.module("bake");
         return bake.numbers("fit_key_lights", bake.putFloats(probe.subarray(2)), probe[0], probe[1], count);
     }
 
-    /** Takes them out of the probe's light. */
+    /** Takes key lights out of the probe's light. */
     async useKeyLights(keys: Float32Array): Promise<void> {
         const bake = await this.module("bake");
         const address = bake.putFloats(keys);
@@ -144,7 +144,7 @@ export class Tasks {
         return (await this.module("bake")).numbers("probe_texels", this.probe);
     }
 
-    /** `pitches`: null for the material's alone. */
+    /** The map of a plane. `normal`: in the world; `pitches`: null for the material's alone. */
     async plane(id: number, normal: number[], flatLobe: boolean, pitches: Pitches | null, detail: Detail): Promise<PlaneMap> {
         const bake = await this.module("bake");
         const material = this.baked.get(id)!;
@@ -203,7 +203,7 @@ export class Tasks {
         };
     }
 
-    /** Raw SH of the light without its key lights. `probe`: probeTexels(). */
+    /** Raw SH of the light without its key lights. `probe`: of probeTexels(). */
     async restSh(probe: Float32Array, keys: Float32Array, bands: number): Promise<Float32Array> {
         const module = await this.module("arc");
         const address = module.putFloats(keys);
@@ -212,7 +212,7 @@ export class Tasks {
         return sh;
     }
 
-    /** 3 · layers vectors for each vertex. `sh`: restSh(). */
+    /** The products of arc: 3 · layers vec4s for each vertex. `sh`: of restSh(). */
     async products(
         id: number, source: Source, bands: number, pitches: Pitches | null, sh: Float32Array, normals: Float32Array, gratings: Float32Array,
     ): Promise<Float32Array> {
@@ -223,14 +223,14 @@ export class Tasks {
         return products;
     }
 
-    /** The light of reference(): probeTexels(). */
+    /** Sets the light of reference(). `probe`: of probeTexels(). */
     async referenceImage(probe: Float32Array): Promise<void> {
         const module = await this.module("reference");
         if (this.image !== 0) module.call("release_image", this.image);
         this.image = module.call("read_image", module.putFloats(probe.subarray(2)), probe[0], probe[1]);
     }
 
-    /** Radiance of points by the sum over wavelengths, along arcs of the image's texels. */
+    /** Radiance of points of pointFrame(): the sum over wavelengths, along arcs of the image's texels. */
     async reference(source: Source, points: Float32Array): Promise<Float32Array> {
         const module = await this.module("reference");
         const material = Tasks.read(module, source);

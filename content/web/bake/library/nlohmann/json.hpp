@@ -18,7 +18,7 @@ class ordered_json;
 class json {
  public:
     enum class error_handler_t { replace };
-    /// For parse_json() of engine/core, which nothing here calls and no module holds.
+    /// For parse_json() of engine/core to compile; nothing calls it, so that no module contains it.
     enum class parse_event_t { key, object_start, object_end, array_start, array_end };
     struct parse_error : std::exception {
         std::size_t byte = 0;

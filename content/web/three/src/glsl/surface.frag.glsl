@@ -1,4 +1,4 @@
-// Beneath three's <lights_physical_pars_fragment>: the diffraction term of MeshPhysicalMaterial.
+// Inserted after three's <lights_physical_pars_fragment>: the diffraction term for MeshPhysicalMaterial.
 #define SEPARATE_LIGHTS
 #define KEY_LOBES
 #define SHOWN_LAYERS LAYERS
@@ -26,9 +26,9 @@ uniform float light_scale;  // of the probe
 #endif
 
 GrooveView lit_view;
-vec3 lit_sum;  // of three's lights
+vec3 lit_sum;  // diffracted radiance of three's lights
 #ifdef GROOVE_MAP
-int lit_parts;  // of a pixel whose grooves vary
+int lit_parts;  // parts of a pixel whose grooves vary
 #endif
 
 void prepare_grooves() {
@@ -42,7 +42,7 @@ void prepare_grooves() {
 #ifdef GROOVE_MAP
 GrooveView lit_part(int part) {
     GrooveView view = groove_part(lit_view, lit_parts, part);
-    if (view.pitch <= 0.0) view.direction.z = 0.0;  // no grating: as from below
+    if (view.pitch <= 0.0) view.direction.z = 0.0;  // no grating: as if seen from below
     return view;
 }
 
@@ -57,7 +57,7 @@ vec3 lamp_radiance(GrooveView view, PixelU u, vec3 s, vec3 irradiance) {
     return kernel_to_working(factor * pitch_kernel_value(u.mean, view.direction.x, deviation_of(u), irradiance, view.pitch));
 }
 
-// A light of three. `s`: toward it, in the world; `irradiance`: on a surface that faces it.
+// Adds one of three's lights. `s`: toward it, in the world; `irradiance`: on a surface that faces it.
 void add_lamp(vec3 s, vec3 irradiance) {
 #ifdef GROOVE_MAP
     MeshU mesh = mesh_u_of(lit_view, s);

@@ -1,4 +1,4 @@
-// Beneath three's <common>: what grooves.glsl takes from the vertices.
+// Inserted after three's <common>: what grooves.glsl reads from the vertices.
 out vec3 world_position;
 out vec3 world_normal;
 out vec3 world_grating;
@@ -13,7 +13,8 @@ STORAGE(4, ArcProducts, vec4, vertex_products);
 out vec4 arc_products[3 * LAYERS];
 #endif
 
-// `position`, `normal`, `tangent`: of the object. Across the grooves: the mesh's tangent, or away from the object's origin.
+// `position`, `normal`, `tangent`: in the object's space. The grating vector points along the mesh's tangent or away
+// from the object's origin.
 void pass_grooves(vec3 position, vec3 normal, vec4 tangent, vec3 normal_in_view) {
     world_position = (modelMatrix * vec4(position, 1.0)).xyz;
     world_normal = normalize((vec4(normal_in_view, 0.0) * viewMatrix).xyz);

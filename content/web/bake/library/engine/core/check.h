@@ -1,5 +1,5 @@
 #pragma once
-// In place of the engine's: without the texts of conditions, operands and files, a fiftieth of a module.
+// In place of the engine's check.h. It leaves out the texts of conditions, operands and files, a fiftieth of a module.
 #include <fmt/format.h>
 
 #include <string_view>
