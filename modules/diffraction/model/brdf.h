@@ -52,9 +52,9 @@ double brdf_agu(const Grating& grating, const glm::dvec3& s, const glm::dvec3& v
 double path_density(const Grating& grating, double path_nm, double wavelength_nm, double s_g = 0.0);
 
 /// The energy-conserving BRDF at one pair of directions, with the true width of N grooves (PHYSICS §3):
-/// f_E = d · path_density(d u, λ) · D_h(s_h + v_h) · T(s_n) T(v_n), T of the cover; 0 if a direction is below the
-/// surface or, of a sheet's transmitted side, the light is above it. Reciprocal, but for tables of several incidences
-/// that are not. With the "agu" normalisation order_efficiency()'s factor is included.
+/// f_E = d · path_density(d u, λ) · D_h(s_h + v_h) · T(s_n) T(v_n), T of the cover. 0 if the view is below the surface,
+/// or if the light is; of a sheet that transmits, if the light is above it. Reciprocal, except for tables of several
+/// incidences that are not. With the "agu" normalisation order_efficiency()'s factor is included.
 double brdf_energy(const Grating& grating, const glm::dvec3& s, const glm::dvec3& v, double wavelength_nm);
 
 }  // namespace rowland::diffraction
