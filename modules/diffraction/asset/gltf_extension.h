@@ -28,7 +28,7 @@ struct GrooveTexture {
 /// How a grating lies on a surface.
 struct GroovePlacement {
     bool has_base = false;         ///< false: the base layer is the glTF's metallic-roughness surface
-    double groove_rotation = 0.0;  ///< radians by which g is turned from the tangent toward the bitangent
+    double groove_rotation = 0.0;  ///< radians by which g is rotated from the tangent toward the bitangent
     std::optional<GrooveTexture> groove_texture;
 };
 

@@ -37,7 +37,7 @@ enum class ErrorMeasure {
     HdrFlip,      ///< "hdr_flip": mean HDR-FLIP over a picture, 0 (looks the same) to 1
 };
 
-/// An error that is tolerated, or a representation pinned by hand.
+/// An error that is tolerated, or a representation that is pinned.
 struct Quality {
     double max_error = 0.05;  ///< against the reference, > 0, as `measure` says
     ErrorMeasure measure = ErrorMeasure::RelativeRms;

@@ -37,7 +37,7 @@ struct BudgetRecord {
     ErrorMeasure measure = ErrorMeasure::RelativeRms;
     SurfaceShape surface = SurfaceShape::Flat;
     int frames = 0;      ///< points that each error is measured over
-    double price = 0.0;  ///< shading_price() of the chosen representation
+    double price = 0.0;  ///< shading_price() of the representation
     std::vector<OfProbe> probes;
 
     bool has_budget() const { return max_error > 0.0; }

@@ -129,8 +129,8 @@ struct KernelUniforms {
     glm::vec2 reach{0.0F};       ///< centre and half-width of the |u| where k is not 0
 };
 KernelUniforms kernel_uniforms(const KernelTable& kernel, const BlurredKernel& blurred);
-/// The uniform `kernel_views` of shaders/kernel.glsl under KERNEL_VIEWS: factors of the layer and of the view's position
-/// from 0 to 1, and offset, to r, for a 3D texture of `layers` times the kernel's views.
+/// The uniform `kernel_views` of shaders/kernel.glsl under KERNEL_VIEWS: factors of the layer and of the view's
+/// position from 0 to 1, and offset, to r, for a 3D texture of `layers` times the kernel's views.
 glm::vec3 kernel_views(const BlurredKernel& blurred, std::size_t layers);
 
 }  // namespace rowland::diffraction

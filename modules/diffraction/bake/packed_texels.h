@@ -48,8 +48,8 @@ void pack(std::span<const double> values, std::size_t layers, PackedTexels& pack
 /// Writes scale, bias and texels; the caller writes the storage.
 void write_packed_texels(const PackedTexels& packed, ByteWriter& writer);
 
-/// Reads scale, bias and texels into `packed`, whose storage is set. Throws Error (input) unless there are `layers` layers of
-/// `texels_per_layer` texels and every scale, bias and float is finite.
+/// Reads scale, bias and texels into `packed`, whose storage is set. Throws Error (input) unless there are `layers`
+/// layers of `texels_per_layer` texels and every scale, bias and float is finite.
 void read_packed_texels(ByteReader& reader, std::size_t layers, std::size_t texels_per_layer, PackedTexels& packed);
 
 /// The storage that a number in a file names. Throws Error (input) at the reader's offset.

@@ -12,8 +12,8 @@
 
 namespace rowland::diffraction {
 
-/// The settings that a budget chooses from, as members of a material's "quality". `key_light_limit`: the most key lights
-/// that a probe has.
+/// The settings that a budget chooses from, as members of a material's "quality". `key_light_limit`: the most key
+/// lights that a probe has.
 std::vector<nlohmann::json> budget_candidates(const Grating& grating, SurfaceShape surface, int key_light_limit);
 
 /// A representation chosen for a material.

@@ -56,8 +56,8 @@ inline constexpr std::size_t kViewParts = 8;
 
 /// Views drawn at random for a material's error under a probe (quality.measure, quality.surface). Each part has 30 of
 /// them, of both sides of the object; a fifth has g as near as possible to a bright texel. For ErrorMeasure::HdrFlip a
-/// part is a measured_picture() in a random pose. A flat lattice has one g; on flat grooves g varies as on a disc. Equal
-/// gratings and probes give equal views.
+/// part is a measured_picture() in a random pose. A flat lattice has one g; on flat grooves g varies as on a disc.
+/// Equal gratings and probes give equal views.
 MeasuredViews drawn_views(const Material& material, const lighting::ProbeImage& probe);
 
 /// An error of XYZ against the reference, with one value per point in both.

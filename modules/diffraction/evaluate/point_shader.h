@@ -63,8 +63,8 @@ class PointComparer {
     /// `key_lights`: the most that are extracted from the probe; materials shade the first of them one by one.
     PointComparer(lighting::ProbeImage probe, int key_lights);
 
-    /// `window`: of the light's harmonics. `layout`: of the object that the point is on. The frame must be valid. Throws
-    /// Error (input) where the material cannot be evaluated under a probe.
+    /// `window`: of the light's harmonics. `layout`: of the object that the point is on. The frame must be valid.
+    /// Throws Error (input) where the material cannot be evaluated under a probe.
     PointComparison compare(const std::shared_ptr<const CookedMaterial>& cooked, math::SphericalWindow window,
                             const ShadingPoint& frame, GrooveLayout layout);
 

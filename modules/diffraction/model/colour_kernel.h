@@ -31,8 +31,8 @@ class ColourKernel {
     /// 𝒦(x) = ∫₀ˣ k dx'.
     glm::dmat3 antiderivative(double x_nm) const;
 
-    /// Mean of k between `begin_nm` and `end_nm`, in either order, or k there if they are equal: for a light, a pixel or
-    /// a cell of that extent in x.
+    /// Mean of k between `begin_nm` and `end_nm`, in either order, or k there if they are equal: for a light, a pixel
+    /// or a cell of that extent in x.
     glm::dmat3 average(double begin_nm, double end_nm) const;
 
     /// ∫ η_0 cmf Eᵀ dλ if order 0 is listed: the weight of δ(x). 0 below kManyGrooves grooves: k includes order 0.

@@ -74,8 +74,8 @@ struct ProfileMember {
     double initial = 0.0;       ///< when a user chooses the profile
     const char* help = "";
     const char* source = "";  ///< of the formula
-    /// Returns the number in a Profile that holds the profile described. Null: the member names the file that the profile
-    /// is read from.
+    /// Returns the number in a Profile that holds the profile described. Null: the member names the file that the
+    /// profile is read from.
     double& (*value)(Profile&) = nullptr;
 };
 

@@ -27,9 +27,9 @@ struct SolvedEfficiencies {
 /// dense as the grid's; a symmetric relief takes half of them.
 SolvedEfficiencies solve_efficiencies(const Relief& relief, const Substrate& substrate, const std::string& name);
 
-/// solve_efficiencies() of a grating. The grids of the last few reliefs are kept. If for some direction the efficiencies
-/// of a sheet and its reflectance sum to more than 1, all its efficiencies are reduced by one factor. Throws Error
-/// (input) as relief_of() and solve_efficiencies() do.
+/// solve_efficiencies() of a grating. The grids of the last few reliefs are kept. If for some direction the
+/// efficiencies of a sheet and its reflectance sum to more than 1, all its efficiencies are reduced by one factor.
+/// Throws Error (input) as relief_of() and solve_efficiencies() do.
 std::shared_ptr<const EfficiencyGrid> rigorous_efficiencies(const Grating& grating, const std::string& name);
 
 }  // namespace rowland::diffraction

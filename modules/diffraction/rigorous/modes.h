@@ -50,9 +50,9 @@ Propagating propagating(const Basis& basis, std::complex<double> index);
 /// √(ε − κ²) with a positive imaginary part, or real and positive; never 0.
 std::complex<double> vertical_component(std::complex<double> permittivity, double kappa);
 
-/// The stack of a relief for each polarisation. Those upward modes of the top medium and downward modes of the substrate
-/// that propagate are the plane waves of propagating(), in columns from `up` and from `down` on, with amplitudes of E
-/// or H.
+/// The stack of a relief for each polarisation. Those upward modes of the top medium and downward modes of the
+/// substrate that propagate are the plane waves of propagating(), in columns from `up` and from `down` on, with
+/// amplitudes of E or H.
 struct Stack {
     std::vector<Modes> modes[2];  ///< by Polarisation
     int up = 0;                   ///< column of the top medium's first plane wave

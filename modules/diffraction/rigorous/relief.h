@@ -28,8 +28,8 @@ struct Relief {
 };
 
 /// Checks what solve() requires. Throws Error (input) that calls the relief `name` for a pitch not in (0, 1e5) nm, a
-/// depth not in [0, 4 pitches], a duty not in (0, 1), an ambient index outside 1 to 4, more than kMaximumFilms films, or
-/// a film that is thicker than the pitch or has an index outside 1 to 4.
+/// depth not in [0, 4 pitches], a duty not in (0, 1), an ambient index outside 1 to 4, more than kMaximumFilms films,
+/// or a film that is thicker than the pitch or has an index outside 1 to 4.
 void check_relief(const Relief& relief, const std::string& name);
 
 /// The coarsest grating that is solved: 105 orders of visible light are above the horizon.
@@ -40,10 +40,10 @@ using Substrate = std::variant<colour::Metal, double>;
 /// n + ik.
 std::complex<double> index_of(const Substrate& substrate, double wavelength_nm);
 
-/// Why rigorous theory cannot solve a grating; nullopt if it can. It takes at least kManyGrooves lamellar, sinusoidal or
-/// blazed grooves of a metal, in air or under a cover, or of a sheet that transmits. The pitch is above 190 nm, up to
-/// which no visible order but 0 propagates, and at most kCoarsestSolved_nm; the depth is at most four pitches. Films are
-/// not checked.
+/// Why rigorous theory cannot solve a grating; nullopt if it can. It takes at least kManyGrooves lamellar, sinusoidal
+/// or blazed grooves of a metal, in air or under a cover, or of a sheet that transmits. The pitch is above 190 nm, up
+/// to which no visible order but 0 propagates, and at most kCoarsestSolved_nm; the depth is at most four pitches. Films
+/// are not checked.
 std::optional<Refusal> rigorous_refusal(const Grating& grating);
 
 /// The relief of a grating with its films; a sheet's is mirrored, as it is thickest toward +g (PHYSICS §12). Throws

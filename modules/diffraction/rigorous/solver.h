@@ -11,7 +11,7 @@ namespace rowland::diffraction {
 /// Efficiencies of one polarisation or the mean of both.
 enum class Light { TE, TM, Unpolarised };
 
-/// What one solve gives: light from every s_g + kλ/d that propagates, into every order.
+/// The efficiencies of one solve: of light from every s_g + kλ/d that propagates, into every order.
 ///
 /// All directions are g components in air: light from s_g = −v_g[i] that leaves as v_g[j] is of order j − i. In an
 /// ambient medium of index n directions up to |v_g| < n propagate; those of |v_g| > 1 do not leave it into air.
@@ -48,9 +48,9 @@ inline constexpr int kMaximumTruncation = 160;
 
 /// Rigorous efficiencies of classical incidence (s_h = 0): Maxwell's equations with 2 `truncation` + 1 orders, of which
 /// those that propagate are given. A lamellar relief is solved by the Fourier modal method with adaptive spatial
-/// resolution, others by the coordinate-transformation method. 0 ≤ truncation ≤ kMaximumTruncation. Throws Error (input)
-/// as check_relief() does, and unless |s_g| < 1 (in air), 0 < wavelength_nm < 1e5 and substrate_index = n + ik with
-/// n > 0, k ≥ 0 and |n + ik| < 100.
+/// resolution, others by the coordinate-transformation method. 0 ≤ truncation ≤ kMaximumTruncation. Throws Error
+/// (input) as check_relief() does, and unless |s_g| < 1 (in air), 0 < wavelength_nm < 1e5 and substrate_index = n + ik
+/// with n > 0, k ≥ 0 and |n + ik| < 100.
 OrderEfficiencies solve(const Relief& relief, std::complex<double> substrate_index, double wavelength_nm, double s_g,
                         int truncation);
 
