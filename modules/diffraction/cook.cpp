@@ -125,7 +125,7 @@ std::vector<std::byte> cook_source(cook::Context& context) {
     return write_cooked_material(source.json, cooked);
 }
 
-/// Whether all triangles with a scene's material are in planes.
+/// Whether every instance with a scene's material is flat.
 bool is_flat(const scene::ImportedScene& scene, std::size_t material) {
     constexpr float kFlatness = 0.005F;  // radians
     return std::ranges::all_of(scene.instances, [&](const scene::ImportedInstance& instance) {
@@ -144,7 +144,7 @@ std::optional<GroovePitches> pitches_of(const GltfGrating& grating, const cook::
     return groove_pitches(*extension.scene.images[extension.scene.textures[index].image]);
 }
 
-/// A grating of a scene. Its errors are those of its grooves without their texture.
+/// Cooks a grating of a scene. Errors are measured without the groove texture.
 std::vector<std::byte> cook_extension(cook::Context& context, const cook::SceneExtension& extension) {
     const std::string file = context.source().string();
     GltfGrating grating = parse_gltf_extension(extension.object, file, read_through(context), extension.pointer);

@@ -24,10 +24,10 @@ namespace rowland::diffraction {
 
 namespace {
 
-/// Of rungs whose tables are the material's own.
+/// In place of an index of tables: the rung has the material's own.
 constexpr std::uint32_t kOwnTables = 0xffffffff;
 
-/// More than a material can name.
+/// More files than a material can name.
 constexpr std::uint32_t kMostNamedTexts = 16;
 
 }  // namespace
@@ -100,10 +100,10 @@ KernelTable read_kernel(ByteReader& reader) {
     return kernel;
 }
 
-/// More than visible light has at the coarsest pitch that is solved.
+/// More orders than visible light has at the coarsest pitch that is solved.
 constexpr std::size_t kMostGridOrders = 256;
 
-/// The efficiencies of a rigorous theory; those of a table follow from it.
+/// Writes the efficiencies of rigorous theory; those of a table follow from the table.
 void write_efficiencies(const Grating& grating, ByteWriter& writer) {
     if (grating.theory == Theory::Scalar) return;
     const EfficiencyGrid& grid = *grating.efficiencies;
@@ -130,7 +130,7 @@ void read_efficiencies(ByteReader& reader, Grating& grating) {
 }
 
 void write_baked(const CookedMaterial& cooked, ByteWriter& writer) {
-    // That of several views takes a hundred times the memory of the efficiencies from which it follows.
+    // A kernel of several views takes a hundred times the memory of the efficiencies from which it follows.
     if (!depends_on_direction(cooked.material.grating)) write_kernel(cooked.kernel, writer);
     const glm::mat3 zero_order(cooked.zero_order_xyz);
     write_matrices({&zero_order, 1}, writer);
@@ -232,7 +232,7 @@ void write_rungs(const CookedMaterial& cooked, ByteWriter& writer) {
     }
 }
 
-/// With the kernel and the grating of `like`.
+/// A rung's tables, for the material and the other side of `like`. The kernels are left empty.
 std::shared_ptr<const CookedMaterial> read_rung_tables(ByteReader& reader, const Quality& quality,
                                                        const CookedMaterial& like) {
     const auto read = [&](const Material& material) {

@@ -27,7 +27,8 @@ struct CookedMaterial;
 struct CookedRung {
     nlohmann::json settings;  ///< members of the material's "quality"
     Quality quality;
-    /// With its tables and its other side alone. Rungs that differ in key lights share it; null: the material's own.
+    /// Holds only its tables and its other side. Rungs that differ in key lights alone share it. Null: the material's
+    /// own tables.
     std::shared_ptr<const CookedMaterial> baked;
     BudgetRecord measured;
 };
@@ -38,21 +39,21 @@ struct CookedMaterial {
     BakedTables tables;
     KernelTable kernel;                      ///< for analytic lights, key lights, and maps filled at run time
     glm::dmat3 zero_order_xyz{0.0};          ///< ColourKernel::zero_order_xyz()
-    std::optional<BudgetRecord> measured{};  ///< if the representation was chosen for max_error
+    std::optional<BudgetRecord> measured{};  ///< errors of the representation; none if they were not measured
     std::shared_ptr<const CookedMaterial> reflected = nullptr;  ///< reflected_side(), with the same quality; null: none
     std::vector<CookedRung> cheaper{};                          ///< the cheapest first; none if nothing was measured
 };
 
-/// The most rungs, the material itself included.
+/// The largest number of rungs, the material itself included.
 inline constexpr std::size_t kMostRungs = 6;
 
-/// The material as one of its rungs draws it.
+/// The material as one of its rungs, of `cooked.cheaper`, draws it; the result has no rungs.
 CookedMaterial as_rung(const CookedMaterial& cooked, const CookedRung& rung);
 
-/// The material of reflected_side(), baked as the other side is; null without one.
+/// The reflected_side() of a sheet, baked with the material's quality; null if the material has none.
 std::shared_ptr<const CookedMaterial> bake_reflected_side(const Material& material);
 
-/// Throws Error (input) naming `file` for fewer grooves than baked materials have.
+/// Throws Error (input) naming `file` for fewer grooves than baked materials need (kManyGrooves).
 void require_baked_grooves(const Grating& grating, const std::string& file);
 
 /// The material with its kernel, without tables.
@@ -65,25 +66,26 @@ CookedMaterial bake_material(const Material& material);
 /// read by `read`, or beside `file`. Throws Error (input) naming `file`.
 CookedMaterial cook_material(const nlohmann::json& json, const std::string& file, const ReadNamed& read);
 CookedMaterial cook_material(const nlohmann::json& json, const std::string& file);
-/// The same as the method says. Throws Error (input), also if the method does not suit the grating.
+/// cook_material() of with_method(). Throws Error (input), also if the method does not suit the grating.
 CookedMaterial cook(const nlohmann::json& json, const std::string& file, const Method& method);
-/// Throws Error (input) if cook() would, without baking.
+/// Throws Error (input) where cook() refuses the file or the method; neither solves nor bakes.
 void check_method(const nlohmann::json& json, const std::string& file, const Method& method);
 
-/// The content of the files that a material names, as written from it, by their names.
+/// The files that a material names (efficiencies, heights, illuminant), by their names: texts written from the parsed
+/// material, which parse to the same values.
 using NamedTexts = std::map<std::string, std::string>;
 NamedTexts named_texts(const nlohmann::json& json, const Material& material);
 
 /// The payload of a cooked material: the source as compact JSON with the chosen representation pinned, the CSV files
 /// that it names, the kernel, the representation's number and tables, those of a sheet's reflected side, the record of
-/// the choice (else empty text), and the cheaper rungs. It needs no other file.
+/// its errors (empty text for none), and the cheaper rungs. It needs no other file.
 std::vector<std::byte> write_cooked_material(const nlohmann::json& json, const CookedMaterial& cooked);
 
-/// Inverse of write_cooked_material for untrusted bytes. Throws Error (input).
+/// Inverse of write_cooked_material() for untrusted bytes. Throws Error (input) naming `file`.
 CookedMaterial read_cooked_material(std::span<const std::byte> payload, const std::string& file);
 
-/// The tables of a glTF material's grating, which are for the pitches of its groove texture: the payload of a cooked
-/// material behind these.
+/// The tables of a glTF material's grating: the smallest and largest pitch of its groove texture, then the payload of a
+/// cooked material. read_gltf_tables() takes untrusted bytes and throws Error (input) naming `file`.
 inline constexpr std::uint32_t kGltfTablesVersion = 1;
 std::vector<std::byte> write_gltf_tables(const nlohmann::json& json, const CookedMaterial& cooked,
                                          const GroovePitches& pitches);

@@ -28,7 +28,7 @@ struct GrooveTexture {
 /// How a grating lies on a surface.
 struct GroovePlacement {
     bool has_base = false;         ///< false: the base layer is the glTF's metallic-roughness surface
-    double groove_rotation = 0.0;  ///< radians by which g is turned from the tangent toward the bitangent
+    double groove_rotation = 0.0;  ///< radians by which g is rotated from the tangent toward the bitangent
     std::optional<GrooveTexture> groove_texture;
 };
 
@@ -49,23 +49,24 @@ GltfGrating parse_gltf_extension(JsonReader& reader, const ReadNamed& read);
 
 /// A material file's object as a glTF in `folder` holds it, as the value of kGltfExtension. "base" is left out: the
 /// layer under the grating is the glTF material's own surface, with its textures. Names of files, relative to the
-/// material file's folder `from`, become relative to `folder`. `material` is sane (parse_material()). Throws Error
-/// (input) for a name that is not UTF-8.
+/// material file's folder `from`, become relative to `folder`. `material` must be valid (parse_material()). Throws
+/// Error (input) for a name that is not UTF-8.
 nlohmann::ordered_json gltf_object(nlohmann::ordered_json material, const std::filesystem::path& from,
                                    const std::filesystem::path& folder);
 
-/// Makes the names of files in a material's object, relative to the folder `from`, relative to `to`. Objects that are
-/// not sane may stay as they are.
+/// Rewrites the names of files in a material's object, which are relative to the folder `from`, to be relative to `to`.
+/// Members of another type than parse_material() expects stay as they are. Throws Error (input) for a name that is not
+/// UTF-8.
 void move_named_files(nlohmann::ordered_json& object, const std::filesystem::path& from,
                       const std::filesystem::path& to);
 
 /// "740 nm lamellar, grooves turned by 30 degrees, groove texture 2"
 std::string describe(const GltfGrating& grating);
 
-/// The placement alone; the other members are not looked at.
+/// Parses the placement alone and ignores the other members. Throws Error (input).
 GroovePlacement parse_groove_placement(const nlohmann::json& json, const std::string& file, const std::string& pointer);
 
-/// Those members of the object that a material file may have.
+/// The extension's object without the members that a material file cannot have.
 nlohmann::json material_members(nlohmann::json object);
 
 }  // namespace rowland::diffraction

@@ -13,7 +13,8 @@ namespace {
 
 using OrderedJson = nlohmann::ordered_json;
 
-/// The member under `key`, if it names a file: an illuminant is one only with this extension.
+/// Rewrites the member under `key` if it is a relative file name that ends in `extension`, which distinguishes files of
+/// illuminants from built-in ones.
 void move_name(OrderedJson& owner, const char* key, const std::string& extension, const std::filesystem::path& from,
                const std::filesystem::path& to) {
     if (!owner.is_object() || !owner.contains(key) || !owner[key].is_string()) return;

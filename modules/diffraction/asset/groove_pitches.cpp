@@ -15,8 +15,9 @@ namespace {
 
 /// Default rank of a table over pitches, for an error of 1 % or less; with one pitch, 8 give 2 %.
 constexpr int kPitchRank = 12;
-/// Largest ratio of neighbouring pitches of an `arc` table, and of a `planar` map: midway between two, a CD-like foil's
-/// is .5, .8 and 2.2 % off under Grace, Ennis and Royal Esplanade, 1.3, 2.1 and 4.9 % at the table's step (measured).
+/// Largest ratio of neighbouring pitches of an `arc` table, and of a `planar` map. Measured errors of a CD-like foil's
+/// map midway between two pitches, under Grace, Ennis and Royal Esplanade: .5, .8 and 2.2 %. With the table's step they
+/// would be 1.3, 2.1 and 4.9 %.
 constexpr double kTablePitchStep = 1.045;
 constexpr double kMapPitchStep = 1.03;
 /// Smaller relative differences of the pitch are ignored.

@@ -17,17 +17,20 @@ struct GroovePitches {
     bool vary() const;
 };
 
+/// From the green channel of a GrooveTexture.
 GroovePitches groove_pitches(const image::ByteImage& texture);
 
-/// Why a material cannot be drawn under a groove texture: its representation supports one direction or one pitch only.
-/// nullopt if it can. The key is a JSON pointer relative to the glTF extension, without its first slash.
+/// Why a material cannot be drawn under a groove texture: its representation supports only one direction of grooves, or
+/// its representation and lobe only one pitch. nullopt if it can. The key is a JSON pointer relative to the glTF
+/// extension, without its first slash.
 std::optional<Refusal> groove_refusal(const Material& material, const GroovePitches& pitches);
 
-/// The material with tables for these pitches, for which groove_refusal() is nullopt; arc, if nothing is pinned.
+/// The material with its table settings extended to these pitches; `arc` is pinned if nothing is. groove_refusal() must
+/// be nullopt.
 Material suited_to_grooves(Material material, const GroovePitches& pitches);
 
-/// A grating of a glTF file under its texture, ready to be baked; null: it has none. Throws Error (input) if it cannot
-/// be drawn. `file` and `pointer` (JSON) are for messages.
+/// The material of a glTF file's grating with the settings for its groove texture, of these pitches; null: it has no
+/// texture. Throws Error (input) if it cannot be drawn. `file` and `pointer` (JSON) are for messages.
 Material drawable_material(const GltfGrating& grating, const GroovePitches* pitches, const std::string& file,
                            const std::string& pointer);
 

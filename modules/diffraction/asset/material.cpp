@@ -66,7 +66,8 @@ PitsLobe parse_pits(JsonReader json) {
     return pits;
 }
 
-/// Diffraction by a metre of groove widens a lobe by more; far below, σ is lost in the rounding of s_h + v_h.
+/// Diffraction by a metre of groove widens a lobe by more than this least σ. Far smaller ones are lost in the rounding
+/// of s_h + v_h.
 constexpr NumberRange kSigma{.minimum = 1e-6};
 
 GrooveLobe parse_lobe(JsonReader& json) {
@@ -143,8 +144,8 @@ Grating parse_grating(JsonReader json, const ReadNamed& read) {
     return grating;
 }
 
-/// Rigorous theory where it knows the grooves, unless the file names a theory or a representation that cannot take it;
-/// of sheets only where the file asks for it. Only rigorous theory knows films.
+/// Chooses rigorous theory where it can solve the grooves, unless the file names a theory, a representation that cannot
+/// take it, or a sheet without films. Films need rigorous theory.
 void choose_theory(JsonReader& json, Material& material) {
     if (json.is_recording_schema()) return;
     Grating& grating = material.grating;
@@ -186,7 +187,7 @@ Transmission parse_transmission(JsonReader json, const Profile& profile) {
     return transmission;
 }
 
-/// A sheet whose grooves lie in air.
+/// Refuses the members that a sheet that transmits cannot have.
 void refuse_beside_transmission(JsonReader& json) {
     json.refuse_if_there("metal", "a metal beside a transmission", "no metal", "a sheet that transmits light has none");
     json.refuse_if_there("cover", "a cover beside a transmission", "no cover",
@@ -208,11 +209,11 @@ Representation default_representation(const Grating& grating) {
     return PlanarSettings::from(SettingValues(PlanarSettings::info(), reader), grating);
 }
 
-/// Of one wavelength.
+/// Efficiencies of a grating at one wavelength and normal incidence.
 struct Efficiencies {
     double zero = 0.0;    ///< η₀
     double listed = 0.0;  ///< Σ listed η without η₀
-    double all = 1.0;     ///< what is not absorbed; scalar theory leaves what is to the base layer
+    double all = 1.0;     ///< of all orders; 1 by scalar theory, whose base layer receives what the metal absorbs
 };
 
 Efficiencies efficiencies(const Grating& grating, double wavelength_nm) {

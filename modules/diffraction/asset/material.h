@@ -37,15 +37,15 @@ enum class ErrorMeasure {
     HdrFlip,      ///< "hdr_flip": mean HDR-FLIP over a picture, 0 (looks the same) to 1
 };
 
-/// An error that is tolerated, or a representation pinned by hand.
+/// An error that is tolerated, or a representation that is pinned.
 struct Quality {
     double max_error = 0.05;  ///< against the reference, > 0, as `measure` says
     ErrorMeasure measure = ErrorMeasure::RelativeRms;
     std::vector<MeasuredProbe> probes;          ///< that max_error is for; none: the built-in clear sky
     SurfaceShape surface = SurfaceShape::Flat;  ///< that max_error is for
     std::optional<Representation> pinned;
-    /// At most so many of the probe's key lights are shaded one by one, at full sharpness: those that
-    /// matter most. The others remain in the probe. 0 to lighting::kMaximumKeyLights, which is all.
+    /// The largest number of the probe's key lights, the most important first, that are shaded one by one at full
+    /// sharpness. The others remain in the probe. 0 to lighting::kMaximumKeyLights, which is all.
     int key_lights = 0;
     /// Key lights and directional lights are shaded per vertex, for dense meshes, instead of per pixel.
     bool lights_at_vertices = false;
@@ -64,8 +64,8 @@ struct Material {
 /// Throws Error (input) naming `file`.
 Material with_efficiencies(Material material, const std::string& file);
 
-/// The representation to bake: the pinned one, else spikes, of a lattice planar. A cooker pins the one that it chooses
-/// for max_error.
+/// The representation to bake: the pinned one, else `spikes`, or `planar` for a lattice. A cooker pins the one that it
+/// chooses for max_error.
 Representation representation(const Material& material);
 
 /// A file that a material names, and what messages call it.
@@ -89,16 +89,17 @@ ReadNamed read_beside(std::filesystem::path folder);
 Material parse_material(const nlohmann::json& json, const std::string& file, const ReadNamed& read);
 /// The same, where names are relative to the folder of `file`.
 Material parse_material(const nlohmann::json& json, const std::string& file);
-/// The members that a material file and the glTF extension have in common: all of a material file's. The caller asks
-/// for its own members and calls finish().
+/// Parses the members that a material file and the glTF extension have in common: all of a material file's. The caller
+/// then reads its own members and calls finish().
 Material parse_material(JsonReader& reader, const ReadNamed& read);
 
 /// A material file's JSON, not checked yet. Throws Error (input).
 nlohmann::json load_material_json(const std::filesystem::path& path);
-/// Reads and parses a material file. Its efficiencies are not solved yet: with_efficiencies().
+/// Reads and parses a material file. Throws Error (input). Its efficiencies are not solved yet: with_efficiencies().
 Material load_material(const std::filesystem::path& path);
 
-/// Its parts. They throw Error (input). A groove's profile, by profile_descriptors(); without `read` none from a file:
+/// The parts of a material. They throw Error (input).
+/// A groove's profile, by profile_descriptors(); without `read`, profiles that name a file are refused.
 Profile parse_profile(JsonReader json, double pitch_nm, const ReadNamed& read);
 /// The grating of a file that has a "lattice" in place of "pitch_nm": lattice, its profile, its orders.
 Grating parse_lattice_grating(JsonReader& json, const ReadNamed& read);
@@ -120,7 +121,7 @@ HeightMap read_height_map(const NamedText& png);
 /// A PNG of the same heights, as text.
 std::string write_height_map(const HeightMap& map);
 
-/// Weights of the engine's own shading of a grating: XYZ of the illuminant's white (Y = 1) after the grating.
+/// Weights by which the engine shades what the orders leave: XYZ of the illuminant's white (Y = 1) after the grating.
 struct LayerWeights {
     glm::dvec3 mirror{0.0};  ///< the zero order, unless `orders` lists 0 (then the diffraction term shades it); a
                              ///< sheet that transmits sends it straight on

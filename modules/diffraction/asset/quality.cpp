@@ -72,7 +72,7 @@ std::vector<MeasuredProbe> parse_probes(JsonReader& json) {
     return probes;
 }
 
-/// What max_error is, and the probes and the surface it is measured on, if the cooker chooses the representation.
+/// How max_error is measured, under which probes and on which surface, if the cooker chooses the representation.
 void parse_measure(JsonReader& json, Quality& quality) {
     quality.measure = read_error_measure(json);
     if (!json.has("max_error")) quality.max_error = default_max_error(quality.measure);
@@ -95,7 +95,7 @@ Quality pinned_quality(const RepresentationInfo& info, const SettingValues& valu
 
 void read_key_lights(JsonReader& json, const RepresentationInfo& info, Quality& quality) {
     const bool always = info.key_lights == KeyLightUse::Always;
-    // Files of earlier versions say whether there are any.
+    // Files of earlier versions have a boolean.
     if (!json.is_recording_schema() && json.has("key_lights") && json.raw("key_lights").is_boolean()) {
         const bool any = json.boolean_or("key_lights", always);
         if (always && !any) json.fail("key_lights", "false", "true with this representation", "or leave it out");
@@ -165,7 +165,7 @@ int default_key_lights(const RepresentationInfo& info) {
     return info.key_lights == KeyLightUse::Always ? lighting::LightProbeSettings().key_lights : 0;
 }
 
-/// Reads "key_lights" and "window"; checks the other members, which are the quality.
+/// Reads "key_lights" and "window"; checks the other members, which become the method's quality.
 Method read_method(const nlohmann::json& members, const std::string& file) {
     JsonReader reader(members, file);
     Method method{.quality = members};

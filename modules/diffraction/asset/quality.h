@@ -20,15 +20,16 @@ struct ReadSettings {
 /// Reads "representation" and its settings from a "quality". Throws Error (input).
 ReadSettings read_settings(JsonReader& json);
 
-/// The quality that pins "representation" with its settings and "key_lights", as a budget, an editor or the demo
-/// proposes it, or why a baked material of this grating cannot have it. The settings must be within their limits.
+/// The quality that pins `settings` ("representation", its settings and "key_lights"), as a budget, an editor or the
+/// demo proposes them, or the reason why a baked material of this grating cannot have it. Throws Error (input) for
+/// unknown settings and for values outside their limits.
 std::variant<Quality, Refusal> suited_quality(const nlohmann::json& settings, const Grating& grating);
 
 /// The measured errors of a material's representation, which was chosen for max_error or pinned.
 struct BudgetRecord {
     struct OfProbe {
         std::string probe;   ///< as the material names it
-        int key_lights = 0;  ///< taken out of it at most, and shaded one by one
+        int key_lights = 0;  ///< the most that are extracted from it and shaded one by one
         double error = 0.0;  ///< as `measure` says
     };
 
@@ -36,7 +37,7 @@ struct BudgetRecord {
     ErrorMeasure measure = ErrorMeasure::RelativeRms;
     SurfaceShape surface = SurfaceShape::Flat;
     int frames = 0;      ///< points that each error is measured over
-    double price = 0.0;  ///< shading_price() of the chosen representation
+    double price = 0.0;  ///< shading_price() of the representation
     std::vector<OfProbe> probes;
 
     bool has_budget() const { return max_error > 0.0; }
@@ -58,7 +59,8 @@ std::string write_budget_record(const BudgetRecord& record);
 /// Inverse of write_budget_record() for untrusted text. Throws Error (input) naming `file`.
 BudgetRecord parse_budget_record(std::string_view text, const std::string& file);
 
-/// A way to shade a material and to divide its light, written "arc/bands=5/rank=8/key_lights=16/window=hann".
+/// A representation with its settings, and how the probe's light is prepared for it: key lights and window. Written
+/// "arc/bands=5/rank=8/key_lights=16/window=hann".
 struct Method {
     /// A material file's "quality" but for key_lights: "representation" and the settings that are given. Keys ascend.
     nlohmann::json quality;
@@ -80,7 +82,7 @@ nlohmann::json to_json(const Method& method);
 const RepresentationInfo& info(const Method& method);
 
 /// The material file `json` with the method in place of its "quality". Settings that the method does not give are the
-/// file's where it pins the same representation, else the defaults.
+/// file's where it pins the same representation, else the defaults. The file's illuminant is kept.
 nlohmann::json with_method(nlohmann::json json, const Method& method);
 
 /// Why the method cannot shade a grating; nullopt if it can.

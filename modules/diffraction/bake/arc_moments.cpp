@@ -16,7 +16,7 @@ namespace {
 
 using Eigen::MatrixXd;
 
-/// Samples a = cos ϑ for a fit by sines; `shift` in (0, 1) distinguishes sets of samples.
+/// Sample a = cos ϑ of a fit by sines; `shift` in (0, 1) distinguishes sets of samples.
 double sample_position(int index, int count, double shift) {
     return std::cos(std::numbers::pi * (index + shift) / count);
 }
@@ -88,11 +88,11 @@ ArcMoments::ArcMoments(int bands) : bands_(bands) {
     residual_ = error.cwiseAbs().maxCoeff();
     const auto count = static_cast<std::size_t>(math::sh_count(bands));
     std::vector<double> row(count);
-    std::vector<double> turned(count);
+    std::vector<double> tangent_row(count);
     for (int k = 0; k < arc_moment_count(bands); ++k) {
         for (std::size_t i = 0; i < count; ++i) row[i] = map(k, static_cast<Eigen::Index>(i));
-        arcs.to_tangent_frame(row, turned);
-        matrix_.insert(matrix_.end(), turned.begin(), turned.end());
+        arcs.to_tangent_frame(row, tangent_row);
+        matrix_.insert(matrix_.end(), tangent_row.begin(), tangent_row.end());
     }
 }
 
@@ -116,21 +116,21 @@ constexpr int kNodesPerWave = 6;
 constexpr int kCoverNodes = 16;
 
 /// The flat lobe's integrand is a trigonometric polynomial of degree `bands` in t over half a period: 16 nodes give
-/// 1e-15 at 5 bands. A lobe's core is a bump that takes up to 1/17 of the interval: 40 nodes more.
+/// 1e-15 at 5 bands. A lobe's core may be a bump as narrow as 1/17 of the interval: 40 nodes more.
 int core_node_count(int bands, const GrooveLobe& lobe) {
     const int smooth = std::max(16, 2 * bands + 6);
     const int waves = static_cast<int>(2.0 * lobe_extent(lobe).core_half_width / lobe_extent(lobe).tail_feature_size);
     return is_flat(lobe) ? smooth : smooth + 40 + kNodesPerWave * waves;
 }
 
-/// Beyond the core a lobe is as smooth as its waves along the arc, which spans at most 2 in s_h.
+/// Beyond its core a lobe varies in waves along the arc, which spans at most 2 in s_h.
 int tail_node_count(int bands, const GrooveLobe& lobe) {
     const int waves = static_cast<int>(std::ceil(2.0 / lobe_extent(lobe).tail_feature_size));
     return std::max(16, 2 * bands + 6) + kNodesPerWave * waves;
 }
 
-/// The flat lobe's moments are functions of r alone. T's nearest pole, beyond the horizon at r = −1/√(n² + 1), lets 32
-/// Chebyshev nodes on [0, 1] give 1e-14 up to n = 3.
+/// The flat lobe's moments are functions of r alone. The nearest pole of a cover's T lies beyond the horizon, at
+/// r = −1/√(n² + 1), so that 32 Chebyshev nodes on [0, 1] are accurate to 1e-14 up to n = 3.
 constexpr int kRadiusNodes = 32;
 
 struct ChebyshevNode {

@@ -31,7 +31,7 @@ class ArcMoments {
     /// 1 ≤ bands ≤ 32.
     explicit ArcMoments(int bands);
 
-    /// q per RGB channel. Light of fewer bands counts as 0 in the others; more are ignored.
+    /// q per RGB channel. Bands that the light lacks count as 0; bands beyond bands() are ignored.
     std::vector<glm::dvec3> operator()(const lighting::ShLight& tangent_light) const;
 
     /// Row k, column i; (2n−1)·n² entries, row by row.
@@ -52,11 +52,11 @@ class ArcMoments {
 /// multiplies the integrand by T(r sin t), PHYSICS (10.2).
 ///
 /// The computation is in the arc frame (h, n, g), whose polar axis is the axis of the arcs. There Y_lm is a function of
-/// a times cos mt or sin |m|t, so that an arc takes 2n−1 moments and one evaluation of the basis. Sum over arcs in the
-/// arc frame, then rotate once by to_tangent_frame().
+/// a times cos mt or sin |m|t, so that an arc takes 2n−1 moments and one evaluation of the basis. Callers sum over arcs
+/// in the arc frame and rotate the sum once by to_tangent_frame().
 class ArcCoefficients {
  public:
-    /// 1 ≤ bands ≤ 32. Flat lobe: 1e-14 exact, under a cover 1e-9. Others: 1e-9.
+    /// 1 ≤ bands ≤ 32. Accurate to 1e-14 for the flat lobe without a cover, else to 1e-9.
     ArcCoefficients(int bands, const GrooveLobe& lobe, const std::optional<Cover>& cover = std::nullopt);
 
     /// Adds weight · C_i(a), in the arc frame, to `sum` (bands² entries); nothing for |a| ≥ 1.

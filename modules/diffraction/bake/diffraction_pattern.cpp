@@ -66,8 +66,8 @@ struct Eigenpair {
     Eigen::VectorXd vector;
 };
 
-/// Of a symmetric matrix that is positive semidefinite, the largest first: Jacobi's method (Golub & Van Loan, Matrix
-/// Computations, 8.5). Eigen's solver would be a twentieth of the module that browsers load.
+/// Eigenpairs of a symmetric, positive semidefinite matrix, the largest first, by Jacobi's method (Golub & Van Loan,
+/// Matrix Computations, 8.5). Eigen's solver would take a twentieth of the module that browsers load.
 std::vector<Eigenpair> eigenpairs(Eigen::MatrixXd matrix) {
     constexpr int kMostSweeps = 30;
     constexpr double kRounding = 1e-14;
@@ -103,9 +103,9 @@ DiffractionPattern::ViewTerms view_terms(const Eigen::MatrixXd& efficiencies, co
     const std::vector<Eigenpair> components = eigenpairs(weighted.transpose().lazyProduct(weighted));
     double left = 0.0;
     for (const Eigenpair& component : components) left += component.value;
-    const double bearable = kTermError * kTermError * left;
+    const double tolerated = kTermError * kTermError * left;
     DiffractionPattern::ViewTerms terms;
-    for (terms.count = 0; terms.count < kMostTerms && left > bearable; ++terms.count)
+    for (terms.count = 0; terms.count < kMostTerms && left > tolerated; ++terms.count)
         left -= components[terms.count].value;
     const std::span<const Eigenpair> shown(components.data(), terms.count);
     for (Eigen::Index i = 0; i < efficiencies.rows(); ++i)
@@ -121,7 +121,7 @@ DiffractionPattern groove_pattern(const Grating& grating, const colour::LightSpe
     DiffractionPattern pattern{
         .nodes = {}, .views = {}, .lobe = grating.lobe, .even = is_even(grating), .cover = grating.cover};
     std::vector<glm::dmat3> observed;
-    std::vector<int> orders;  // of the nodes
+    std::vector<int> orders;  // by node
     for (const int order : grating.orders) {
         add_order(grating, spectra, order, step, pattern.nodes, observed);
         orders.resize(pattern.nodes.size(), order);
@@ -183,15 +183,15 @@ DiffractionPattern in_space(DiffractionPattern pattern, const glm::dmat3& xyz_to
 
 namespace {
 
-/// The coarsest level has so many texels a side: of them, the pattern takes the middle half.
+/// Texels along a side of the coarsest level, the middle half of which the pattern covers.
 constexpr int kCoarsestPicture = 8;
-/// |u_g| and |u_h| of all pairs of directions.
+/// Largest |u_g| and |u_h| of any pair of directions.
 constexpr double kFarthestPair = 2.0;
 /// The blur of a level: its variance over the square of a texel.
 constexpr double kLevelVariance = 0.64;
 /// That variance plus that of the interpolation between texels, averaged over positions.
 constexpr double kShownVariance = kLevelVariance + 1.0 / 6.0;
-/// Points of a pattern closer than this are joined before its extent is known.
+/// Step of the pattern from which a picture's extent is computed.
 constexpr double kCoarseStep = 0.01;
 
 /// Divides a point's weight among the four texels around it.
@@ -220,15 +220,14 @@ std::vector<float> normal_weights(double deviation, double first) {
     return weights;
 }
 
-/// Sums over neighbours along the rows, of every `stride`th texel, and exchanges rows and columns. Beyond the border is
-/// black.
+/// Weighted sums over the neighbours of every `stride`th texel of each row, transposed. Black beyond the border.
 template <typename Level>
-Level blurred_and_turned(const Level& level, std::span<const float> weights, int stride, int rows) {
+Level blurred_and_transposed(const Level& level, std::span<const float> weights, int stride, int rows) {
     using Value = typename decltype(level.density)::value_type;
     const int columns = level.size / stride;
     const int before = static_cast<int>(weights.size()) / 2 - (stride == 2 ? 1 : 0);
-    Level turned{.size = level.size, .density = {}};
-    turned.density.assign(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows), Value(0.0F));
+    Level transposed{.size = level.size, .density = {}};
+    transposed.density.assign(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows), Value(0.0F));
     parallel_for(static_cast<std::size_t>(rows), [&](std::size_t row) {
         const Value* from = level.density.data() + row * static_cast<std::size_t>(level.size);
         for (int column = 0; column < columns; ++column) {
@@ -237,21 +236,21 @@ Level blurred_and_turned(const Level& level, std::span<const float> weights, int
                 const int at = column * stride + i - before;
                 if (at >= 0 && at < level.size) sum += weights[static_cast<std::size_t>(i)] * from[at];
             }
-            turned.density[static_cast<std::size_t>(column) * static_cast<std::size_t>(rows) + row] = sum;
+            transposed.density[static_cast<std::size_t>(column) * static_cast<std::size_t>(rows) + row] = sum;
         }
     });
-    turned.size = rows;
-    return turned;
+    transposed.size = rows;
+    return transposed;
 }
 
 template <typename Level>
 Level blurred(const Level& level, std::span<const float> weights, int stride) {
-    const Level half = blurred_and_turned(level, weights, stride, level.size);
-    return blurred_and_turned(half, weights, stride, level.size / stride);
+    const Level half = blurred_and_transposed(level, weights, stride, level.size);
+    return blurred_and_transposed(half, weights, stride, level.size / stride);
 }
 
-/// Blurs points, which divided among four texels have a variance of a sixth of a texel's square already. `variance`: in
-/// such squares.
+/// Blurs points that were divided among four texels, which gave them a variance of 1/6 of a squared texel. `variance`:
+/// of the result, in squared texels.
 template <typename Level>
 Level smoothed(const Level& points, double variance) {
     const double deviation = std::sqrt(variance - 1.0 / 6.0);
@@ -259,7 +258,7 @@ Level smoothed(const Level& points, double variance) {
 }
 
 /// The next level: its texels' centres lie between those of the finer one. `variance`: of the blur that it adds, in
-/// squares of the finer one's texels.
+/// squared texels of the finer one.
 template <typename Level>
 Level halved(const Level& finer, double variance) {
     // Interpolation between its texels adds 4/6, where that of the finer one added 1/6.

@@ -117,7 +117,7 @@ void KernelCells::correlate_rgb(std::span<const float> light, std::span<float> x
 
 namespace {
 
-/// The sun on a grating of 700 nm is 1.4 nm wide.
+/// σ of level 0. The sun on a grating of 700 nm is 1.4 nm wide.
 constexpr double kNarrowest_nm = 1.0;
 
 /// What a look-up adds to a level's variance, in squares of a column's width: the mean over a column 1/12, and linear
@@ -126,13 +126,13 @@ constexpr double kColumnVariance = 0.25;
 /// The variance of a stencil of one column.
 constexpr double kLeastVariance = 1e-4;
 
-/// 2 − |u| below which no order is left.
+/// Least 2 − |u|, below which no order is left.
 constexpr double kLeastViews = 1e-3;
 
-/// A normal distribution ends after this many deviations: 6e-5 of it is lost.
+/// A normal distribution is cut off at this many deviations: 6e-5 of it is lost.
 constexpr double kBlurReach = 4.0;
 
-/// 1/√κ of the widest lobe that is fitted to a probe, with a margin for the pixel.
+/// 1/√κ of the widest key light that is fitted to a probe, with a margin for the pixel.
 constexpr double kWidestDeviation = 0.2;
 /// Columns for lights: one per so many nm, within the limits below.
 constexpr double kColumn_nm = 2.0;

@@ -33,22 +33,23 @@ struct PitchAxis {
     friend bool operator==(const PitchAxis&, const PitchAxis&) = default;
 };
 
-/// Linear interpolation of f at step h exceeds f by h² f''/12 on average. Nodes therefore hold f less this fraction of
+/// Linear interpolation of f at step h exceeds f by h² f''/12 on average. Nodes therefore hold f minus this fraction of
 /// their second difference, which more than halves the interpolation's RMS error.
 inline constexpr float kBestLinear = 1.0F / 12.0F;
 
-/// The fraction along views at step h under KernelCells: h²/32 more, for light that is spread over cells of ½ h (a
-/// variance of h²/24, divided linearly among two) and the kernel's mean over them (h²/48).
+/// The same fraction for the views of KernelCells, at step h. It is larger by 1/32, as light that is divided linearly
+/// between two cells of width ½ h adds a variance of h²/24, and the kernel's mean over a cell adds h²/48.
 inline constexpr float kBestView = kBestLinear + 1.0F / 32.0F;
 
 /// Four numbers in one vector register.
 using Four = float __attribute__((vector_size(4 * sizeof(float))));
 
 /// A colour kernel over equal cells, for correlation with arc profiles: 2(views − 1) cells of a ∈ [−1, 1] and views at
-/// v_g = 2j/(views−1) − 1, so that a weight depends on the sum a + v_g alone, or on that and the view as the kernel
-/// does. It is the kernel's mean over the cell.
+/// v_g = 2j/(views−1) − 1. A weight is d times the kernel's mean over a cell of a + v_g; it depends on the sum alone,
+/// unless the kernel also depends on the view.
 class KernelCells {
  public:
+    /// pitch_nm > 0, views ≥ 2. `zero_order_xyz`: ColourKernel::zero_order_xyz().
     KernelCells(const KernelTable& kernel, double pitch_nm, int views, const glm::dmat3& zero_order_xyz);
 
     int cells() const { return cells_; }
@@ -66,7 +67,7 @@ class KernelCells {
     template <typename Value>
     void sharpen(std::span<Value> xyz, std::size_t count) const;
 
-    /// The number of cells that the kernel's weights reach from a view.
+    /// The cells, from `begin` to before `end`, in which a view has weights other than 0.
     struct Range {
         int begin;
         int end;
@@ -79,14 +80,14 @@ class KernelCells {
     int first_ = 0;  ///< weights outside [first_, end_) are 0
     int end_ = 0;
     std::vector<float> weights_;   ///< 12 per sum: columns of the matrix, each padded to four
-    std::size_t view_stride_ = 2;  ///< sums from a view's weights of its first cell to those of the next view
+    std::size_t view_stride_ = 2;  ///< sums from the weights of a view's first cell to those of the next view's
 };
 
 inline constexpr int kLevelsPerOctave = 4;
 inline constexpr int kBlurredViews = 25;
 
-/// (v_g − s_g)/(2 − |u|), −1 to 1: where the view lies among those of u = s_g + v_g. Light or view is at the horizon at
-/// the ends, PHYSICS (14.8).
+/// (v_g − s_g)/(2 − |u|), from −1 to 1: the position of the view among those that u = s_g + v_g allows. At both ends
+/// the light or the view is at the horizon, PHYSICS (14.8).
 double view_coordinate(double u, double v_g);
 
 /// k smoothed by normal distributions, over x and the deviation σ: the response to a light of that extent in one
@@ -110,14 +111,14 @@ struct BlurredKernel {
     glm::dmat3 at(double x_nm, double deviation_nm, double v_g = 0.0) const;
 };
 
-/// σ from 1 nm to at least `widest_nm` ≥ 1; x to 4σ beyond the kernel. A value is what at() is to give for σ: the
-/// stencil is narrower by what columns and interpolation add. Where σ is wider than the kernel's features, values are
-/// as 1/σ, and n levels an octave are off by (ln 2/n)²/8 between them: .4 % for 4, .1 % for 8.
+/// σ from 1 nm to at least `widest_nm` ≥ 1; x to 4σ beyond the kernel. Stencils are narrower than σ by what columns and
+/// interpolation add, so that at() gives the kernel smoothed by σ. Where σ is wider than the kernel's features, values
+/// fall as 1/σ; between n levels per octave, interpolation is then off by (ln 2/n)²/8: .4 % for 4, .1 % for 8.
 BlurredKernel blur(const KernelTable& kernel, double pitch_nm, double widest_nm, int columns = 2048,
                    int levels_per_octave = kLevelsPerOctave);
 
-/// blur() for lights and pixels on a grating of this pitch: deviations of u up to .2. At most so many columns. Of
-/// several views, half as many columns and a level an octave less.
+/// blur() for lights and pixels on a grating of this pitch: deviations of u up to .2, at most `most_columns` columns. A
+/// kernel of several views gets half as many columns and one level per octave fewer.
 BlurredKernel blur_for_lights(const KernelTable& kernel, double pitch_nm, int most_columns = 4096,
                               int levels_per_octave = kLevelsPerOctave);
 
@@ -125,10 +126,11 @@ BlurredKernel blur_for_lights(const KernelTable& kernel, double pitch_nm, int mo
 struct KernelUniforms {
     glm::vec4 scale_bias{0.0F};  ///< scale and offset from u to s; deviation of u in level 0; scale of the values: d
     glm::vec2 rows{0.0F};        ///< scale and offset from log2(deviation of u) to t
-    glm::vec2 reach{0.0F};       ///< k is 0 where |u| differs from x by more than y
+    glm::vec2 reach{0.0F};       ///< centre and half-width of the |u| where k is not 0
 };
 KernelUniforms kernel_uniforms(const KernelTable& kernel, const BlurredKernel& blurred);
-/// `kernel_views` of the shader under KERNEL_VIEWS, for a texture of `layers` times the kernel's views.
+/// The uniform `kernel_views` of shaders/kernel.glsl under KERNEL_VIEWS: factors of the layer and of the view's
+/// position from 0 to 1, and offset, to r, for a 3D texture of `layers` times the kernel's views.
 glm::vec3 kernel_views(const BlurredKernel& blurred, std::size_t layers);
 
 }  // namespace rowland::diffraction

@@ -56,7 +56,7 @@ namespace {
 /// Up to this number, orders are summed one by one.
 constexpr std::size_t kFewOrders = 100;
 
-/// Points of the pattern within this distance are merged: an error of 1e-4 of the highest of the bands.
+/// Spacing of the grid on which the pattern's points are merged: an error of 1e-4 in the highest band.
 double grid_step_for(int bands) {
     return std::max(0.03 / bands, 0.004);
 }
@@ -70,7 +70,7 @@ struct SeenPart {
 SeenPart seen_part(const glm::dvec2& u, double length, const glm::dvec2& view) {
     const double distance = glm::length(u);
     const glm::dvec2 along = distance > 0.0 ? u / distance : glm::dvec2(1.0, 0.0);
-    // u = 0, the mirror's direction, is above the horizon, so the part is what is nearer than where |u − v| = 1.
+    // u = 0, the mirror's direction, is above the horizon, so the part ends where |u − v| = 1.
     const double b = glm::dot(along, view);
     const double horizon = b + std::sqrt(std::max(0.0, b * b + 1.0 - glm::dot(view, view)));
     const double fraction = std::clamp((horizon - distance) / length + 0.5, 0.0, 1.0);

@@ -23,7 +23,8 @@ std::vector<LatticeOrder> lattice_orders(const Grating& grating);
 /// The orders in the frame that a point is shaded in: for a sheet that transmits, h is reversed (PHYSICS §13).
 std::vector<LatticeOrder> shaded_lattice_orders(const Grating& grating);
 
-/// Σ η T(s_n) Y_i(s) over the orders of one view, PHYSICS (13.4): [j·bands² + i], j nanometres above kVisibleMin.
+/// Σ η T(s_n) Y_i(s) over the orders of one view (v_g, v_h), PHYSICS (13.4): [j·bands² + i], j nanometres above
+/// kVisibleMin.
 std::vector<double> lattice_spectrum(const std::vector<LatticeOrder>& orders, const std::optional<Cover>& cover,
                                      const glm::dvec2& view, int bands);
 
@@ -32,8 +33,8 @@ class LatticeTerms {
  public:
     LatticeTerms(const Grating& grating, const colour::LightSpectra& spectra, int bands);
 
-    /// c_i of a view (v_g, v_h), [i] RGB in, XYZ out, in the frame (g, h, n): exact to 4e-4 up to 100 orders. Beyond,
-    /// orders are binned on a grid in u of spacing max(0.03 / bands, 0.004): exact to 3e-3.
+    /// c_i of a view (v_g, v_h), [i] RGB in, XYZ out, in the frame (g, h, n). Accurate to 4e-4 for up to 100 orders;
+    /// more may be binned on a grid in u of spacing max(0.03 / bands, 0.004), which is accurate to 3e-3.
     std::vector<glm::dmat3> coefficients(const glm::dvec2& view) const;
 
  private:

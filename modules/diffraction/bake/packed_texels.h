@@ -26,7 +26,7 @@ const char* storage_name(Storage storage);
 Storage parse_storage(std::string_view name);
 
 /// Layers of RGBA texels as a texture holds them. A component's value is `stored·scale + bias` with scale and bias of
-/// its layer. Unorm spans [minimum, maximum] of a component's layer; half floats map the same to [−1, 1], with
+/// its layer. Unorm spans [minimum, maximum] of a component's layer; half floats map the same interval to [−1, 1], with
 /// the highest precision about 0; floats are the values themselves, scale 1 and bias 0.
 struct PackedTexels {
     Storage storage = Storage::Unorm16;
@@ -41,15 +41,15 @@ struct PackedTexels {
     std::size_t bytes() const;
 };
 
-/// Replaces texels, scale and bias of `packed` by `values` (RGBA, layer by layer, `layers` of equal size), rounded to
-/// its storage. Values must be finite.
+/// Replaces texels, scale and bias of `packed` by `values` (RGBA, layer by layer, `layers` ≥ 1 layers of equal size),
+/// rounded to its storage. Values must be finite.
 void pack(std::span<const double> values, std::size_t layers, PackedTexels& packed);
 
 /// Writes scale, bias and texels; the caller writes the storage.
 void write_packed_texels(const PackedTexels& packed, ByteWriter& writer);
 
-/// Reads them into `packed`, whose storage is set. Throws Error (input) unless there are `layers` layers of
-/// `texels_per_layer` texels and every scale, bias and float is finite.
+/// Reads scale, bias and texels into `packed`, whose storage is set. Throws Error (input) unless there are `layers`
+/// layers of `texels_per_layer` texels and every scale, bias and float is finite.
 void read_packed_texels(ByteReader& reader, std::size_t layers, std::size_t texels_per_layer, PackedTexels& packed);
 
 /// The storage that a number in a file names. Throws Error (input) at the reader's offset.

@@ -33,7 +33,7 @@ AxisLookup look_up_repeated(double turns, std::size_t count) {
     const double n = static_cast<double>(count);
     double position = std::fmod(turns * n, n);
     if (position < 0.0) position += n;
-    if (!(position >= 0.0)) position = 0.0;
+    if (!(position >= 0.0)) position = 0.0;  // a NaN
     const auto first = std::min(static_cast<std::size_t>(position), count - 1);
     return {first, (first + 1) % count, position - static_cast<double>(first)};
 }

@@ -58,18 +58,18 @@ struct BilinearLookup {
 /// The look-up of a tangent-frame view, by ViewGrid's formulae.
 BilinearLookup look_up(const ViewGrid& grid, double v_g, double v_h, double v_n);
 
-/// True if the sizes are those of the mapping.
+/// True if the mapping allows the grid's sizes.
 bool is_valid(const ViewGrid& grid);
 
 /// Refuses (Error, input) a one-dimensional grid for a grating that depends on more than v_g; the sizes must be valid.
 void check_view_grid(const ViewGrid& grid, const Grating& grating);
 
-/// The factors from the SH coefficients of the view (v_g, v_h) to those of (v_g, −v_h). Every lobe is even in s_h +
-/// v_h: −1 for the functions odd in h, m < 0, and 1 for the others. bands² entries.
+/// The factors from the SH coefficients of the view (v_g, v_h) to those of (v_g, −v_h). As every lobe is even in s_h +
+/// v_h, they are −1 for the functions that are odd in h (m < 0) and 1 for the others. bands² entries.
 std::vector<double> mirror_signs(int bands);
 
 /// Calls body(view, texel, mirrored texel) for one view of each mirrored pair, on all cores. A lattice has no pairs:
-/// both texels are the same.
+/// body is called for every view, and both texels are the same. `title` labels the progress.
 void for_each_view(const char* title, const ViewGrid& grid, const Grating& grating,
                    const std::function<void(const glm::dvec2& view, std::size_t texel, std::size_t mirror)>& body);
 
@@ -86,6 +86,7 @@ struct AxisLookup {
 /// `position`: 0 at the first node, 1 at the last, clamped.
 AxisLookup look_up_axis(double position, std::size_t count);
 
+/// The look-up of a texture with `row_length` texels in a row.
 BilinearLookup combine(const AxisLookup& columns, const AxisLookup& rows, std::size_t row_length);
 
 /// The mapping that a number in a file names. Throws Error (input) at the reader's offset.

@@ -103,12 +103,12 @@ std::vector<glm::dmat3> TransferTerms::summed_arcs(double v_g, double v_h, doubl
             if (arc[i] != 0.0) arc_frame[i] += arc[i] * weight;
     });
     std::vector<glm::dmat3> result(count);
-    std::vector<double> turned(count);
+    std::vector<double> tangent_frame(count);
     for (int c = 0; c < 3; ++c)
         for (int o = 0; o < 3; ++o) {
             for (std::size_t i = 0; i < count; ++i) arc[i] = arc_frame[i][c][o];
-            arcs_.to_tangent_frame(arc, turned);
-            for (std::size_t i = 0; i < count; ++i) result[i][c][o] = turned[i];
+            arcs_.to_tangent_frame(arc, tangent_frame);
+            for (std::size_t i = 0; i < count; ++i) result[i][c][o] = tangent_frame[i];
         }
     return result;
 }

@@ -19,8 +19,8 @@ inline bool has_arc_moments(const Grating& grating) {
 }
 
 /// The diffraction term of one view as SH coefficients with the wavelengths summed (PHYSICS §5):
-/// c_i,o,c(v) = Σ_m ∫ η_m(λ) cmf_o(λ) E_c(λ) C_i(mλ/d − v_g) dλ. This equals d ∫ C_i(a) k_o,c(d(a+v_g)) da, but knows
-/// the wavelength that the lobe depends on. Of a lattice: LatticeTerms.
+/// c_i,o,c(v) = Σ_m ∫ η_m(λ) cmf_o(λ) E_c(λ) C_i(mλ/d − v_g) dλ. This equals d ∫ C_i(a) k_o,c(d(a+v_g)) da, except that
+/// the lobe may depend on the wavelength. A lattice takes LatticeTerms.
 class TransferTerms {
  public:
     /// Throws as require_many_grooves().
@@ -28,7 +28,8 @@ class TransferTerms {
 
     /// c_i for a view, [i] RGB in, XYZ out; bands² matrices in the frame (g, h, n). The weight is linear between whole
     /// nanometres, as in ColourKernel. Each nanometre above the horizon takes two Gauss–Legendre nodes in the arc's
-    /// angle: 1e-8 exact for the flat lobe. `pitch_factor` scales the pitch, not the efficiencies.
+    /// angle: accurate to 1e-8 for the flat lobe. `pitch_factor` scales the pitch, not the efficiencies; a lattice
+    /// ignores it.
     std::vector<glm::dmat3> coefficients(double v_g, double v_h, double pitch_factor = 1.0) const;
 
     /// The coefficients T_k(v_g) of the 2·bands − 1 arc moments (arc_moments.h), [k]. has_arc_moments() must hold.

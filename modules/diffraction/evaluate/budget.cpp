@@ -34,14 +34,14 @@ BudgetRecord record_of(const MeasuredChoice& choice, const Material& material, s
     return record;
 }
 
-/// To three digits, so that a budget of the number that the message shows succeeds.
+/// Rounded up to three digits, so that the number in a message can be met as max_error.
 double rounded_up(double error) {
     if (!std::isfinite(error) || error <= 0.0) return error;
     const double digit = std::pow(10.0, std::floor(std::log10(error)) - 2.0);
     return std::ceil(error / digit) * digit;
 }
 
-/// None, 4, 8, 16 and so on, and the most that a probe has.
+/// 0, 4, 8, 16 and so on, and `most`.
 std::vector<int> key_light_counts(int most) {
     std::vector<int> counts{0};
     for (int count = 4; count < most; count *= 2) counts.push_back(count);
@@ -49,7 +49,8 @@ std::vector<int> key_light_counts(int most) {
     return counts;
 }
 
-/// The rungs of the front, but for those that save less than a sixth of the price of the next one.
+/// The choices on the Pareto front that are cheaper than `top`, as rungs. A rung costs at most kWorthwhile times the
+/// next more expensive one, except the cheapest.
 std::vector<CookedRung> rungs_below(const MeasuredChoice& top, std::span<const MeasuredChoice> measured,
                                     const Material& material, std::span<const BudgetProbe> probes,
                                     std::span<const MeasuredViews> views) {
@@ -76,7 +77,7 @@ std::vector<CookedRung> rungs_below(const MeasuredChoice& top, std::span<const M
     return rungs;
 }
 
-/// Those that the rules of a choice allow.
+/// The settings that `allows` accepts; all of them if it is empty.
 std::vector<nlohmann::json> allowed(std::vector<nlohmann::json> settings, const Grating& grating,
                                     const std::function<bool(const Quality&)>& allows) {
     if (!allows) return settings;
@@ -119,7 +120,7 @@ BudgetChoice choose_representation(const Material& material, std::span<const Bud
     const double max_error = material.quality.max_error;
     std::vector<nlohmann::json> settings =
         budget_candidates(material.grating, material.quality.surface, most_key_lights(probes));
-    settings.push_back({{"representation", "direct"}, {"key_lights", 0}});  // for the last rung alone
+    settings.push_back({{"representation", "direct"}, {"key_lights", 0}});  // only for the cheapest rung
     std::unique_ptr<Progress> progress;
     const SearchState found = search({.material = material,
                                       .probes = probes,

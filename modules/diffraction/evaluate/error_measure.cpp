@@ -55,7 +55,7 @@ std::vector<ShadingPoint> measured_frames(SurfaceShape surface) {
 
 namespace {
 
-constexpr int kSide = 16;
+constexpr int kSide = 16;                 // of the picture, in pixels
 constexpr double kEyeDistance = 3.0;      // radii
 constexpr double kHalfExtent = 1.07;      // of the picture, in the plane of the centre; the sphere's outline is 1.061
 constexpr double kInnerRadius = 0.405;    // of a compact disc's grooves, 23.5 of 58 mm
@@ -138,14 +138,10 @@ double high_delta_e(std::span<const glm::dvec3> radiance, std::span<const glm::d
     return quantile(std::move(differences), kSeenFraction);
 }
 
-}  // namespace
-
-namespace {
-
 constexpr std::size_t kPointsPerPart = 30;
 constexpr std::size_t kAimedOf = 5;  ///< one point of so many has its g toward a bright texel
 
-/// Two gratings with other colours get other views.
+/// Gratings of different colours get different views.
 std::uint64_t seed_of(const Grating& grating) {
     std::uint64_t seed = std::bit_cast<std::uint64_t>(grating.pitch_nm);
     for (const double nm : {450.0, 550.0, 650.0}) {
@@ -179,7 +175,8 @@ class Draw {
         const double r = std::sqrt(1.0 - z * z);
         return {r * std::cos(azimuth), r * std::sin(azimuth), z};
     }
-    /// Perpendicular to n; `aimed`: as near as it can be to a texel drawn by the square of its radiance.
+    /// A direction perpendicular to n; `aimed`: as near as possible to a texel, drawn in proportion to its solid angle
+    /// times the square of its radiance.
     glm::dvec3 grating(const glm::dvec3& n, bool aimed) {
         for (;;) {
             const glm::dvec3 toward = aimed && brightness_.back() > 0.0 ? bright() : direction();
@@ -188,7 +185,7 @@ class Draw {
             aimed = false;
         }
     }
-    /// As much of a surface as the eye sees of it, down to v_n = kLeastViewCosine.
+    /// Drawn in proportion to the projected area that the eye sees, down to v_n = kLeastViewCosine.
     glm::dvec3 view(const glm::dvec3& n) {
         const double cosine = std::sqrt(1.0 - fraction() * (1.0 - kLeastViewCosine * kLeastViewCosine));
         return cosine * n + std::sqrt(1.0 - cosine * cosine) * grating(n, false);
@@ -204,7 +201,7 @@ class Draw {
 
     std::mt19937_64 random_;
     const lighting::ProbeImage& probe_;
-    std::vector<double> brightness_;  ///< of the texels up to each one
+    std::vector<double> brightness_;  ///< cumulative: sum over the texels up to each one
 };
 
 /// Poses come in pairs of opposite normals. A point of a curved object is a pose of its own.
@@ -223,7 +220,7 @@ std::vector<ShadingPoint> drawn_part(GrooveLayout layout, std::size_t points_per
     return points;
 }
 
-/// The picture with its camera, turned at random.
+/// The picture with its camera, rotated at random.
 std::vector<ShadingPoint> drawn_picture(GrooveLayout layout, std::vector<ShadingPoint> points, Draw& draw) {
     const glm::dvec3 n = draw.direction();
     const glm::dvec3 g = draw.grating(n, false);
@@ -241,7 +238,7 @@ MeasuredViews drawn_views(const Material& material, const lighting::ProbeImage& 
     const bool curved = material.quality.surface == SurfaceShape::Curved;
     const GrooveLayout flat = material.grating.lattice ? GrooveLayout::FlatUniform : GrooveLayout::Flat;
     MeasuredViews views{.layout = curved ? GrooveLayout::Curved : flat, .parts = {}};
-    // A map of all azimuths and views takes a second.
+    // Few poses: each fills a map of all azimuths and views, which takes a second.
     const bool has_volume = views.layout == GrooveLayout::Flat && !sees_v_g_alone(material.grating);
     const std::size_t points_per_pose = curved ? 1 : has_volume ? 15 : 5;
     const bool pictures = material.quality.measure == ErrorMeasure::HdrFlip;

@@ -30,7 +30,7 @@ struct PictureLayout {
 /// XYZ of a picture's pixels from that of its points; black where it sees no surface.
 std::vector<glm::dvec3> picture(const PictureLayout& layout, std::span<const glm::dvec3> radiance);
 
-/// Mean colour::hdr_flip() over the pixels that see a surface; 0 if none does. The spans have one value per point.
+/// Mean of colour::hdr_flip() over the pixels that see a surface; 0 if none does. The spans have one value per point.
 double mean_hdr_flip(const PictureLayout& layout, std::span<const glm::dvec3> radiance,
                      std::span<const glm::dvec3> reference);
 
@@ -51,13 +51,13 @@ struct MeasuredViews {
     std::size_t points() const { return parts.size() * parts.front().size(); }
 };
 
-/// The parts that drawn_views() has. The last one checks a choice that the others made.
+/// Number of parts of drawn_views(). The last one checks a choice that was made by the others.
 inline constexpr std::size_t kViewParts = 8;
 
-/// Views drawn at random for a material's error under a probe (quality.measure, quality.surface): 30 a part, of both
-/// sides of the object, or for ErrorMeasure::HdrFlip a measured_picture() of it. A fifth of the points has its g as
-/// near as it can be to a bright texel. The same for equal gratings and probes. A flat lattice has one g, a grating
-/// that of a disc.
+/// Views drawn at random for a material's error under a probe (quality.measure, quality.surface). Each part has 30 of
+/// them, of both sides of the object; a fifth has g as near as possible to a bright texel. For ErrorMeasure::HdrFlip a
+/// part is a measured_picture() in a random pose. A flat lattice has one g; on flat grooves g varies as on a disc.
+/// Equal gratings and probes give equal views.
 MeasuredViews drawn_views(const Material& material, const lighting::ProbeImage& probe);
 
 /// An error of XYZ against the reference, with one value per point in both.

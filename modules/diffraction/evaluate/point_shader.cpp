@@ -68,7 +68,7 @@ std::vector<ShadingPoint> lit_points(const Grating& grating, std::span<const Sha
     return points;
 }
 
-/// Adds key lights, and T(v_n) of what passes the cover toward the eye.
+/// The sum of `shader` and the key lights, times the cover's transmittance toward the eye, T(v_n). Refers to `cooked`.
 PointShader with_key_lights(PointShader shader, const CookedMaterial& cooked, const EvaluationLight& light) {
     return [shader = std::move(shader), key_lights = key_light_shader(cooked, light),
             &cover = cooked.material.grating.cover](const ShadingPoint& frame) {
@@ -78,7 +78,7 @@ PointShader with_key_lights(PointShader shader, const CookedMaterial& cooked, co
     };
 }
 
-/// `parallel`: the shader is for any number of threads.
+/// `parallel`: several threads may call the shader at once.
 std::vector<glm::dvec3> shade(const std::string& title, const PointShader& shader, const Grating& grating,
                               std::span<const ShadingPoint> frames, bool parallel) {
     const std::vector<ShadingPoint> points = lit_points(grating, frames);
@@ -133,6 +133,7 @@ void add_reflected_side(const CookedMaterial& cooked, const EvaluationLight& lig
 
 namespace {
 
+/// Unit vectors nearer than this are equal.
 constexpr double kSameAxis = 1e-6;
 
 }  // namespace
@@ -167,7 +168,7 @@ CookedMaterial as_drawn(const CookedMaterial& cooked, GrooveLayout layout) {
 
 namespace {
 
-/// The points of the planes whose points share g, and of the others, plane by plane.
+/// Indices of the points, plane by plane, grouped by the layout of the plane that each lies in.
 std::map<GrooveLayout, std::vector<std::size_t>> indices_by_layout(std::span<const ShadingPoint> frames) {
     std::map<std::array<double, 3>, std::vector<std::size_t>> planes;
     for (std::size_t i = 0; i < frames.size(); ++i) {

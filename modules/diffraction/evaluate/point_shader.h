@@ -16,9 +16,10 @@
 
 namespace rowland::diffraction {
 
-/// Of one object's points, at least one.
+/// The layout of an object with these points, at least one.
 GrooveLayout layout_of(std::span<const ShadingPoint> points);
-/// Tables, and the material, as such an object shows them; only `planar` differs.
+/// The tables, or the material with the tables, that an object of that layout is drawn with. Only those of `planar`
+/// depend on it.
 BakedTables drawn_tables(const BakedTables& tables, GrooveLayout layout);
 CookedMaterial as_drawn(const CookedMaterial& cooked, GrooveLayout layout);
 
@@ -36,11 +37,11 @@ std::vector<glm::dvec3> evaluate_baked(const CookedMaterial& cooked, const Evalu
 std::vector<glm::dvec3> evaluate_baked(const CookedMaterial& cooked, const EvaluationLight& light,
                                        std::span<const ShadingPoint> frames, GrooveLayout layout);
 
-/// Adds to such XYZ what the other side of a sheet reflects.
+/// Adds what a sheet's other side, cooked.reflected, reflects to `xyz`, a value per frame; nothing without one.
 void add_reflected_side(const CookedMaterial& cooked, const EvaluationLight& light,
                         std::span<const ShadingPoint> frames, std::vector<glm::dvec3>& xyz);
 
-/// The same with `shader` instead of the tables, of one side of a sheet; the key lights are added.
+/// XYZ of points by `shader` instead of the material's tables, plus the key lights; of one side of a sheet.
 std::vector<glm::dvec3> evaluate_points(const std::string& title, const PointShader& shader,
                                         const CookedMaterial& cooked, const EvaluationLight& light,
                                         std::span<const ShadingPoint> frames);
@@ -62,13 +63,12 @@ class PointComparer {
     /// `key_lights`: the most that are extracted from the probe; materials shade the first of them one by one.
     PointComparer(lighting::ProbeImage probe, int key_lights);
 
-    /// `window`: on the light of tables over harmonics. The frame must be valid. Throws Error (input) where the
-    /// material cannot be evaluated under a probe.
-    /// `layout`: of the object that the point is on.
+    /// `window`: of the light's harmonics. `layout`: of the object that the point is on. The frame must be valid.
+    /// Throws Error (input) where the material cannot be evaluated under a probe.
     PointComparison compare(const std::shared_ptr<const CookedMaterial>& cooked, math::SphericalWindow window,
                             const ShadingPoint& frame, GrooveLayout layout);
 
-    /// The light without so many key lights that tables over so many bands take, without a window.
+    /// SH of the probe's light, of so many bands and without a window, less its first `key_lights` key lights.
     lighting::ShLight harmonics(int key_lights, int bands);
 
  private:

@@ -58,7 +58,7 @@ constexpr double kVerticesPerPixel = 25000.0 / (1280.0 * 720.0 / 2.0);
 constexpr double kFetchesPerMebibyte = 0.25;
 constexpr int kProjectedBands = 16;  ///< the most that a setting takes
 constexpr double kAnyError = std::numeric_limits<double>::infinity();
-constexpr std::size_t kReferencePart = 8;  ///< frames between two looks at the stop token
+constexpr std::size_t kReferencePart = 8;  ///< points of the reference between two checks of the stop token
 
 /// The settings as the material's quality; nullopt if they do not suit its grating.
 std::optional<Quality> as_quality(const nlohmann::json& settings, const Material& material) {
@@ -215,7 +215,8 @@ class Search {
     }
     std::size_t steps() const { return 2 * probes_.size(); }
 
-    /// An error at more views is no smaller: what is not on the front stays behind it.
+    /// Measures at all views until no choice on the front lacks any. Errors only grow with more views, so a choice
+    /// behind a fully measured one stays behind it.
     void measure_front() {
         const std::span<MeasuredChoice> choices = std::span(state_.measured).subspan(query_.first ? 1 : 0);
         const auto is_next = [&](const MeasuredChoice& choice) {

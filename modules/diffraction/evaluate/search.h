@@ -25,8 +25,8 @@ using Surface = std::vector<ShadingPoint>;
 /// Whether all normals are equal.
 bool is_flat(const Surface& surface);
 
-/// XYZ of all points, surface by surface, as the cooked material's shaders give them. The
-/// stand-in of a planar map shades curved surfaces.
+/// XYZ of all points, surface by surface, as the cooked material's shaders give them. Curved surfaces are shaded by the
+/// stand-in of a planar map.
 std::vector<glm::dvec3> shade_surfaces(const CookedMaterial& cooked, const EvaluationLight& light,
                                        std::span<const Surface> surfaces);
 
@@ -67,9 +67,9 @@ struct MeasuredChoice {
     Quality quality;
     std::shared_ptr<const CookedMaterial> baked;  ///< shared by settings that differ in key_lights alone
     double price = 0.0;                           ///< shading_price()
-    std::vector<double> errors{};                 ///< under each probe that was measured, in order; so far, at least
-    std::vector<double> checks{};                 ///< of the last parts, which did not decide; empty: not measured
-    std::size_t steps = 0;                        ///< of measuring `errors`
+    std::vector<double> errors{};                 ///< by probe, over the views measured so far
+    std::vector<double> checks{};                 ///< by probe, over the last parts, which did not decide; may be empty
+    std::size_t steps = 0;                        ///< steps of measuring `errors`, two per probe
 
     /// The largest of the errors.
     double error() const;
@@ -81,7 +81,7 @@ bool on_front(const MeasuredChoice& choice, std::span<const MeasuredChoice> amon
 /// How far a search has come.
 struct SearchState {
     std::vector<MeasuredChoice> measured;  ///< in the order of measurement
-    std::size_t done = 0;                  ///< steps: of each setting a bake and two measurements, some of them skipped
+    std::size_t done = 0;                  ///< steps: a bake and up to two measurements per setting
     std::size_t total = 0;
 };
 

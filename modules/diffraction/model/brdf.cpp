@@ -51,7 +51,7 @@ T fejer_ratio(T grooves, T delta) {
         const T ratio = T(1) - (grooves - T(1)) * (grooves + T(1)) * x * x / T(6);
         return ratio * ratio;
     }
-    // N·δ modulo 1 before the sine; the product's rounding error is added again.
+    // N·δ modulo 1 before the sine; the product's rounding error is added back.
     const T rounding = std::fma(grooves, period_delta, -phase);
     const T folded = (phase - std::round(phase)) + rounding;
     const T ratio = std::sin(pi * folded) / (grooves * std::sin(pi * period_delta));

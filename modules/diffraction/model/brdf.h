@@ -36,8 +36,9 @@ std::vector<int> all_orders(double pitch_nm);
 /// from any whole order m: 1 at δ = 0, mean 1/N over a period (Lindsay & Agu 2006, eq. 1; PHYSICS §8). `grooves` is a
 /// whole number N ≥ 1.
 ///
-/// The order is not a parameter because F_N has period 1, and m + δ would lose digits of δ: near a peak the error is up
-/// to 230 in float where the value is 1. Error: in double 1e-12 relative down to 1e-20, in float 1e-5 absolute.
+/// The order is not a parameter because F_N has period 1, and m + δ would lose digits of δ: in float, the formula at
+/// m + δ is off by up to 230 near a peak, where the value is 1. Error of this function: in double 1e-12 relative down
+/// to 1e-20, in float 1e-5 absolute.
 double fejer(double grooves, double delta);
 float fejer(float grooves, float delta);
 
@@ -52,9 +53,9 @@ double brdf_agu(const Grating& grating, const glm::dvec3& s, const glm::dvec3& v
 double path_density(const Grating& grating, double path_nm, double wavelength_nm, double s_g = 0.0);
 
 /// The energy-conserving BRDF at one pair of directions, with the true width of N grooves (PHYSICS §3):
-/// f_E = d · path_density(d u, λ) · D_h(s_h + v_h) · T(s_n) T(v_n), T of the cover; 0 if a direction is below the
-/// surface or, of a sheet's transmitted side, the light is above it. Reciprocal, but for tables of several incidences
-/// that are not. With the "agu" normalisation order_efficiency()'s factor is included.
+/// f_E = d · path_density(d u, λ) · D_h(s_h + v_h) · T(s_n) T(v_n), T of the cover. 0 if the view is below the surface,
+/// or if the light is; of a sheet that transmits, if the light is above it. Reciprocal, except for tables of several
+/// incidences that are not. With the "agu" normalisation order_efficiency()'s factor is included.
 double brdf_energy(const Grating& grating, const glm::dvec3& s, const glm::dvec3& v, double wavelength_nm);
 
 }  // namespace rowland::diffraction

@@ -22,6 +22,7 @@ namespace rowland::diffraction {
 /// Where efficiencies depend on the direction it is k(x; v_g), of one view (PHYSICS §14).
 class ColourKernel {
  public:
+    /// The grating must be solved: is_solved().
     ColourKernel(const Grating& grating, const colour::LightSpectra& spectra, double v_g = 0.0);
 
     /// k(x), x of either sign; 0 outside [begin_nm(), end_nm()].
@@ -30,8 +31,8 @@ class ColourKernel {
     /// 𝒦(x) = ∫₀ˣ k dx'.
     glm::dmat3 antiderivative(double x_nm) const;
 
-    /// Mean of k between begin and end, in either order: for a light, a pixel or a cell of that extent in x. k(begin)
-    /// if they are equal.
+    /// Mean of k between `begin_nm` and `end_nm`, in either order, or k there if they are equal: for a light, a pixel
+    /// or a cell of that extent in x.
     glm::dmat3 average(double begin_nm, double end_nm) const;
 
     /// ∫ η_0 cmf Eᵀ dλ if order 0 is listed: the weight of δ(x). 0 below kManyGrooves grooves: k includes order 0.
@@ -78,8 +79,8 @@ struct KernelTable {
     double end_nm = 0.0;
     int views = 1;                          ///< 1, or EfficiencyGrid::kViews
     std::vector<glm::mat3> antiderivative;  ///< view by view; of each, first at begin_nm, last at end_nm
-    /// Largest error of an interpolated component of 𝒦, relative to the largest component of 𝒦(end) − 𝒦(begin);
-    /// measured at seven points between any two entries.
+    /// Largest error of an interpolated component of 𝒦 at v_g = 0, relative to the largest component of 𝒦(end) −
+    /// 𝒦(begin); measured at seven points between neighbouring entries.
     double error = 0.0;
 
     std::size_t entries() const { return antiderivative.size() / static_cast<std::size_t>(views); }
@@ -92,12 +93,12 @@ struct KernelTable {
     glm::dmat3 of_view(std::size_t view, std::size_t entry, double t) const;
 };
 
-/// entries ≥ 2.
+/// The table of one view's kernel, entries ≥ 2.
 KernelTable tabulate(const ColourKernel& kernel, std::size_t entries = 2048);
 /// The kernel of all views of a grating. Uses all cores.
 KernelTable kernel_table(const Grating& grating, const colour::LightSpectra& spectra);
 
-/// Whether k(−x; −v_g) = k(x; v_g), to the table's rounding: grooves turned by π are then the same grooves.
+/// Whether k(−x; −v_g) = k(x; v_g), to the table's rounding: a rotation of the grooves by π then changes nothing.
 bool is_even(const KernelTable& kernel);
 
 /// The kernel that gives colours of another space instead of XYZ.

@@ -11,7 +11,7 @@ namespace rowland::diffraction {
 
 /// Efficiencies of all orders over wavelength and one direction, the metal included: η_m(λ; s_g), which by reciprocity
 /// is η_m(λ; v_g) for v_g = mλ/d − s_g (PHYSICS §14). It is tabulated where both directions are above the horizon;
-/// entries beyond hold the nearest value along v_g. 53 kB for ten orders.
+/// entries beyond hold the nearest value along v_g. 107 kB for ten orders.
 struct EfficiencyGrid {
     double pitch_nm = 0.0;
     std::vector<int> orders;    ///< ascending; all others are 0
@@ -31,15 +31,15 @@ struct EfficiencyGrid {
     };
     static ViewCell view_cell(double v_g);
 
-    /// η_m(λ; v_g), bilinear; constant beyond the nodes. 0 for another order.
+    /// η_m(λ; v_g), bilinear; constant beyond the nodes. 0 for an order that is not in `orders`.
     double at(int order, double wavelength_nm, double v_g) const;
 
     struct Sample {
         double v_g = 0.0;
         double efficiency = 0.0;
     };
-    /// Sets the views of one order and wavelength from samples with both directions above the horizon, in ascending
-    /// v_g; none: the order is 0.
+    /// Sets the views of one order and wavelength by linear interpolation of samples with both directions above the
+    /// horizon, in ascending v_g. Without samples they stay as they are.
     void set(std::size_t order_index, int row, std::span<const Sample> samples);
 };
 

@@ -13,7 +13,8 @@ namespace rowland::diffraction {
 
 double transmittance(double ior, double cosine) {
     if (!(cosine > 0.0)) return 0.0;
-    // n times the cosine inside. 1 − r² for the two polarisations; nothing cancels at grazing incidence.
+    // `inside` is n times the cosine in the medium. The sum of 1 − r² over both polarisations is written so that
+    // nothing cancels at grazing incidence.
     const double square = ior * ior;
     const double inside = std::sqrt(square - 1.0 + cosine * cosine);
     const double across = cosine + inside;
@@ -57,8 +58,8 @@ ShadingPoint lit_from_behind(const ShadingPoint& frame) {
 
 namespace {
 
-/// The wavelength at which 4π depth/λ is the phase of a groove's depth: that in the medium that the grooves lie in or,
-/// for light that passes a sheet, PHYSICS (12.1); infinite for a sheet of index 1. A table's is in air.
+/// The wavelength for which 4π depth/λ is the phase of a groove's depth: λ in the medium that the grooves lie in or,
+/// for light that passes a sheet, by PHYSICS (12.1), infinite at index 1. For a table, λ in air.
 double groove_wavelength(const Grating& grating, double wavelength_nm) {
     if (std::holds_alternative<EfficiencyTable>(grating.profile)) return wavelength_nm;
     if (grating.transmission) return 2.0 * wavelength_nm / (grating.transmission->ior - 1.0);
@@ -72,8 +73,8 @@ double normalization_factor(const Grating& grating, double wavelength_nm) {
     return wavelength_nm / kAguWavelength_nm;
 }
 
-/// +1, or −1 where an order is that of the other sign of the profile: a sheet is thickest where its reflecting relief
-/// is least deep.
+/// +1, or −1 for the reflected side of a sheet, whose order m is order −m of the profile: the sheet is thickest where
+/// its relief is least deep.
 int order_sign(const Grating& grating) {
     return grating.side_reflectance ? -1 : 1;
 }

@@ -24,8 +24,8 @@ struct Cover {
     glm::dvec3 tint{1.0};
 };
 
-/// T(c), PHYSICS (10.1): the fraction of unpolarised light that enters a medium of index `ior` from air at an angle of
-/// this cosine, or leaves it; by Fresnel's formulas. 0 at grazing incidence and below. |cosine| ≤ 1.
+/// T(c), PHYSICS (10.1), Fresnel's formulas: the fraction of unpolarised light that passes between air and a medium of
+/// index `ior`, in either direction. `cosine`, at most 1, is that of the angle in air; T is 0 for cosines up to 0.
 double transmittance(double ior, double cosine);
 
 /// The same of a cover; 1 without one.
@@ -58,8 +58,8 @@ bool is_valid(const ShadingPoint& frame);
 /// be valid.
 glm::dmat3 world_to_tangent(const ShadingPoint& frame);
 
-/// A transparent film on the relief of the grooves, thinner than the pitch: only rigorous theory knows it (PHYSICS
-/// §14).
+/// A transparent film on the relief of the grooves, no thicker than the pitch. Only rigorous theory includes it
+/// (PHYSICS §14).
 struct DielectricFilm {
     double ior = 1.5;  ///< n at all wavelengths, 1 to 4
     double thickness_nm = 0.0;
@@ -82,8 +82,8 @@ enum class GrooveLayout {
     FlatUniform  ///< g is the same everywhere: of a lobe that is not flat, or a lattice, a map of one azimuth
 };
 
-/// The point of a sheet's other side that shows, as a reflection grating, what the sheet shows at `frame`: the view is
-/// mirrored in the surface, the normal is the opposite one (PHYSICS (12.3)). The frame must be valid.
+/// The point at which a reflection grating shows what a sheet that transmits shows at `frame`: the view is mirrored in
+/// the surface, and the normal is reversed (PHYSICS (12.3)). The frame must be valid.
 ShadingPoint lit_from_behind(const ShadingPoint& frame);
 
 enum class Normalization {
@@ -134,7 +134,8 @@ struct Grating {
     std::shared_ptr<const EfficiencyGrid> efficiencies = nullptr;
 };
 
-/// What a sheet reflects, by the same orders, as a grating of its own; nullopt for nothing.
+/// The grating that reflects as a sheet does: the same orders, by scalar theory. nullopt if the grating is no sheet or
+/// reflects nothing.
 inline std::optional<Grating> reflected_side(const Grating& sheet) {
     if (!sheet.transmission || sheet.transmission->reflectance == 0.0) return std::nullopt;
     Grating side = sheet;
@@ -156,9 +157,8 @@ inline bool lists(const Grating& grating, int order) {
     return std::binary_search(grating.orders.begin(), grating.orders.end(), order);
 }
 
-/// R(λ): the metal's reflectance in the medium over it, times what a cover's dye passes twice. 1 for a table of
-/// efficiencies, which was measured with both. Of a sheet, the fraction that it transmits; of its reflected side, the
-/// rest.
+/// R(λ): the metal's reflectance in the medium over it, times dye_transmittance(). 1 for a table of efficiencies, which
+/// includes both. Of a sheet, the fraction that it transmits; of its reflected side, the fraction that it reflects.
 double reflectance(const Grating& grating, double wavelength_nm);
 
 /// The weight of order m at wavelength λ in the diffraction term: R(λ) η_m(λ), for the "agu" normalisation times
@@ -172,16 +172,17 @@ inline bool depends_on_direction(const Grating& grating) {
     return grating.theory == Theory::Rigorous || grating.efficiencies != nullptr;
 }
 
-/// Whether its efficiencies are known: a rigorous theory's must be solved (asset/material.h, with_efficiencies()).
+/// Whether the efficiencies are known: those of rigorous theory must be solved first (with_efficiencies() in
+/// asset/material.h).
 inline bool is_solved(const Grating& grating) {
     return grating.theory == Theory::Scalar || grating.efficiencies != nullptr;
 }
 
-/// The same at the fractional order d u/λ, from the groove's own spectrum: for fewer than kManyGrooves grooves. A
-/// contract violation for tables.
+/// order_efficiency() at the fractional order d u/λ, from the groove's own spectrum: for fewer than kManyGrooves
+/// grooves. A contract violation for tables.
 double fractional_order_efficiency(const Grating& grating, double fractional_order, double wavelength_nm);
 
-/// R(λ) η_mk(λ) of a grating with a lattice, in the order of lattice_efficiencies().
+/// R(λ) η_mk(λ) of a grating with a lattice, in the layout of lattice_efficiencies().
 std::vector<double> lattice_order_efficiencies(const Grating& grating, double wavelength_nm);
 
 /// R(λ) η_0(λ): the fraction of the power in the mirror reflection or, of a sheet, straight through, whatever the

@@ -44,10 +44,10 @@ struct Lattice {
 inline constexpr int kHighestLatticeOrder = 50;
 
 /// Columns a* and b* per nm: a·a* = 1, a·b* = 0. Order (m, k) of wavelength λ lies at u = λ (m a* + k b*), PHYSICS
-/// (12.4).
+/// (13.1).
 glm::dmat2 reciprocal(const Lattice& lattice);
 
-/// Orders of a side: 2 orders + 1.
+/// Number of values of m, and of k: 2 orders + 1.
 constexpr int order_columns(const Lattice& lattice) {
     return 2 * lattice.orders + 1;
 }

@@ -26,8 +26,8 @@ inline constexpr double kCoherentSigma = 0.02;
 using GrooveLobe = std::variant<FlatLobe, GaussianLobe, PitsLobe>;
 
 /// D_h: how light spreads along the grooves, per unit of s_h + v_h ∈ [−2, 2]. Even. It integrates to 1 over [−1, 1]
-/// (pits: over all sums, so at most λ/(π²ℓ) of it is lost beyond), and to no more over any interval of length 2: a lobe
-/// never adds power.
+/// (for pits over all real numbers, so that at most λ/(π²ℓ) lies outside), and to no more over any interval of length
+/// 2: a lobe never adds power.
 class LobeDensity {
  public:
     /// Only PitsLobe depends on the wavelength.
@@ -57,7 +57,7 @@ class LobeDensity {
 /// D_h at one value of s_h + v_h. For many values of one lobe and wavelength, keep a LobeDensity.
 double lobe_density(const GrooveLobe& lobe, double sum_h, double wavelength_nm);
 
-/// What a quadrature must know of a lobe. All are lengths in s_h + v_h, at most 2, which is the whole domain.
+/// The lengths of a lobe that a quadrature must resolve, in s_h + v_h. All are at most 2, the whole domain.
 struct LobeExtent {
     double half_width = 2.0;         ///< beyond it D_h is below 1e-15 of its peak
     double core_half_width = 2.0;    ///< the narrowest part's: split the quadrature there

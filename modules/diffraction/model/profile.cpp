@@ -92,7 +92,7 @@ double square(double x) {
     return x * x;
 }
 
-/// J_order(z), order ≥ 0. By POSIX: std::cyl_bessel_j of libstdc++ is not a number at high orders, nor from z = 1000
+/// J_order(z), order ≥ 0, by POSIX, as std::cyl_bessel_j of libstdc++ gives no number at high orders or from z = 1000
 /// on.
 double bessel_j(int order, double z) {
     return ::jn(order, z);

@@ -74,7 +74,7 @@ struct ProfileMember {
     double initial = 0.0;       ///< when a user chooses the profile
     const char* help = "";
     const char* source = "";  ///< of the formula
-    /// Where the number is, of a Profile that holds the profile described. Null: the member names the file that the
+    /// Returns the number in a Profile that holds the profile described. Null: the member names the file that the
     /// profile is read from.
     double& (*value)(Profile&) = nullptr;
 };

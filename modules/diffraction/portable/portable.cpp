@@ -18,7 +18,8 @@ static_assert(std::endian::native == std::endian::little, "arrays are written as
 
 namespace {
 
-/// An array beneath `json`, appended to the bytes. `shape`: lengths, outermost first; their product is the values'.
+/// Appends an array to the bytes and returns its JSON. `shape`: lengths, outermost first; their product is the number
+/// of values.
 nlohmann::json append_array(std::span<const float> values, std::span<const std::size_t> shape,
                             std::vector<std::byte>& bytes) {
     std::size_t count = 1;
@@ -64,7 +65,7 @@ nlohmann::json describe(const GrooveLobe& lobe) {
     return {{"type", "flat"}};
 }
 
-/// The texture that blur_for_lights() makes; its values follow from the kernel.
+/// The dimensions of the texture that blur_for_lights() makes; its values follow from the kernel.
 nlohmann::json smoothing(const KernelTable& kernel, double pitch_nm) {
     const BlurredKernel blurred = blur_for_lights(kernel, pitch_nm);
     nlohmann::json json = {{"begin_nm", blurred.begin_nm},         {"end_nm", blurred.end_nm},

@@ -27,8 +27,8 @@ struct PortableDocument {
 /// A document without contents, whose bytes will lie in the file `uri` beside it.
 PortableDocument make_portable(const std::string& uri);
 
-/// Adds "material": the kernel, the layers' weights and what shades a lobe and a cover; of efficiencies that depend on
-/// the direction, those too, and the document's version is kViewDependentVersion.
+/// Adds "material": the kernel, the layers' weights and what shades a lobe and a cover. If the efficiencies depend on
+/// the direction, adds them also and sets the document's version to kViewDependentVersion.
 void add_material(const CookedMaterial& cooked, PortableDocument& document);
 
 /// Adds "arc": the table of the representation `arc`, with the matrix from SH to its light terms.

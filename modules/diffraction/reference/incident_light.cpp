@@ -51,9 +51,7 @@ IncidentLight::IncidentLight(const lighting::ShLight& light)
 
 namespace {
 
-using std::numbers::pi;
-
-/// Of any arc: the midpoint rule's error is then below 1e-4 of the arc.
+/// Fewest nodes of an arc: the midpoint rule's error is then below 1e-4 of the arc.
 constexpr int kMinimumNodes = 64;
 
 /// The part of the half circle that the lobe reaches.

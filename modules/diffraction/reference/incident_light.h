@@ -12,8 +12,8 @@
 
 namespace rowland::diffraction {
 
-/// Light as the reference integrates it. Refers to the probe or the coefficients it is made from, which must outlive
-/// it.
+/// Light as the reference integrates it. It refers to the probe or the coefficients that it is made from, which must
+/// outlive it.
 struct IncidentLight {
     /// A probe at full resolution. Bilinear light has kinks at every texel, so panels are shorter than a texel and have
     /// one node each.
@@ -35,7 +35,7 @@ struct Arc {
     int refinement = 1;          ///< multiplies the number of panels
 };
 
-/// The axes (g, h, −n) in place of (g, h, n): directions of the tangent frame mirrored in the surface.
+/// The axes (g, h, −n) in place of (g, h, n): the tangent frame mirrored in the surface.
 glm::dmat3 mirrored_in_surface(const glm::dmat3& world_to_tangent);
 
 /// The arc profile A_c(a), PHYSICS (2): ½ ∫₀^π L_c(a, r cos t, r sin t) · 2 D_h(r cos t + v_h) · r sin t dt with

@@ -15,7 +15,7 @@ namespace rowland::diffraction {
 
 namespace {
 
-/// What all orders have at one whole nanometre.
+/// The spectra and all orders' efficiencies at one whole nanometre.
 struct LatticeNode {
     double wavelength_nm = 0.0;
     glm::dmat3 observed{0.0};        ///< cmf Eᵀ per nm
@@ -85,7 +85,7 @@ class LatticeView {
         return xyz;
     }
 
-    /// From `s` or, through a sheet, from its mirror image behind the surface, PHYSICS (12.3).
+    /// Radiance from `s` or, through a sheet, from its mirror image behind the surface, PHYSICS (12.3).
     glm::dvec3 incident(const glm::dvec3& s) const {
         return light_.radiance(glm::dvec3(s.x, s.y, from_behind_ ? -s.z : s.z) * tangent_);
     }

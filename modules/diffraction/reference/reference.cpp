@@ -45,7 +45,7 @@ bool depends_on_incidence(const Grating& grating) {
     return depends_on_direction(grating) || depends_on_incidence(grating.profile);
 }
 
-/// From kManyGrooves grooves on: order m and wavelength λ lie on one arc.
+/// For kManyGrooves grooves or more: each order and wavelength lies on one arc.
 std::vector<SpectralTerm> infinite_grooves_terms(const Grating& grating, const colour::LightSpectra& spectra,
                                                  double largest_step, int refinement) {
     std::vector<SpectralTerm> terms;
@@ -123,7 +123,7 @@ double node_offset(std::size_t arc_index) {
 /// A term's weight for light from s_g = a.
 glm::dmat3 weight_at(const Grating& grating, const SpectralTerm& term, double a) {
     if (!depends_on_incidence(grating)) return term.weight;
-    // A table itself, not its grid.
+    // A table is looked up directly, not through its grid.
     return (std::holds_alternative<EfficiencyTable>(grating.profile)
                 ? profile_efficiency(grating.profile, grating.pitch_nm, term.order, term.wavelength_nm, a)
                 : order_efficiency(grating, term.order, term.wavelength_nm, a)) *

@@ -10,9 +10,9 @@
 
 namespace rowland::diffraction {
 
-/// reference_radiance() of a grating with a lattice, PHYSICS (13.2): per order and nanometre the light of one
-/// direction, s_p = λ (m a* + k b*) − v_p. The step is smaller where 1 nm moves the farthest order by more than the
-/// light's panels. `refinement` ≥ 1 divides it.
+/// XYZ of the orders of a grating with a lattice, without the reflected side of a sheet, PHYSICS (13.2): per order and
+/// nanometre the light of one direction, s_p = λ (m a* + k b*) − v_p. The step is smaller where 1 nm moves that
+/// direction by more than a panel of the light. `refinement` ≥ 1 divides it.
 std::vector<glm::dvec3> lattice_radiance(const Grating& grating, const IncidentLight& light,
                                          const colour::LightSpectra& spectra, std::span<const ShadingPoint> points,
                                          int refinement);
@@ -20,10 +20,10 @@ std::vector<glm::dvec3> lattice_radiance(const Grating& grating, const IncidentL
 /// The ground truth: XYZ of the listed orders of `grating` for every point, PHYSICS (4.1), exact but for quadrature.
 /// Per order and nanometre the light is integrated along its half circle s_g = mλ/d − v_g, from a probe at full
 /// resolution (bilinear) or from SH; the step follows the probe's texels and the lobe. Fewer than kManyGrooves grooves
-/// have their true width (profiles but tables, lobes but pits). A sheet that transmits shows the light mirrored in its
-/// plane, and adds what it reflects. The orders of a lattice are points, PHYSICS (13.1). A table of several incidences
-/// is evaluated at s_g of each arc. A view below the horizon is black. A cover's gloss is not included. All points must
-/// be valid.
+/// have their true width (for all profiles but tables and all lobes but pits). A sheet that transmits shows the light
+/// mirrored in its plane, to which what it reflects is added. The orders of a lattice are points, PHYSICS (13.1). A
+/// table of several incidences is evaluated at s_g of each arc. A view below the horizon is black. A cover's gloss is
+/// not included. All points must be valid, and the grating solved: is_solved().
 ///
 /// Uses all cores; the result does not depend on their number. Shares no code with the baked representations.
 std::vector<glm::dvec3> reference_radiance(const Grating& grating, const IncidentLight& light,

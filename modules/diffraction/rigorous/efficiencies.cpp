@@ -17,18 +17,18 @@ namespace rowland::diffraction {
 
 namespace {
 
-/// Light for which a wavelength's truncation is chosen: no symmetry hides an order from it.
+/// The s_g at which a wavelength's truncation is chosen. No symmetry removes an order there.
 constexpr double kConvergedFor = 0.31;
-/// The truncation is chosen at every so many rows; between, the larger of the two neighbours' margins holds. A coarse
-/// grating's solves take long, and its margins are alike.
+/// Rows of the grid from one choice of the truncation to the next; between, the larger of the two neighbours' margins
+/// holds. Coarse gratings take more rows, as their solves take long and their margins are alike.
 int rows_per_choice(double pitch_nm) {
     constexpr double kCoarse_nm = 4000.0;
     return pitch_nm > kCoarse_nm ? 20 : 5;
 }
 
-/// The s_g that are solved at one wavelength. Each gives light from s_g + kλ/d as well, all together (if `symmetric`,
-/// with the opposite ones) equal steps as fine as the grid's. Of the two such sets that are symmetric about 0, the one
-/// that is farther from the directions at which an order is at the horizon, ±1 + kλ/d.
+/// The s_g that are solved at one wavelength. A solve also gives light from s_g + kλ/d. All these directions together,
+/// with the opposite ones if `symmetric`, have equal steps, at least as fine as the grid's. Two such sets are symmetric
+/// about 0: the one is taken that is farther from ±1 + kλ/d, the directions at which an order is at the horizon.
 std::vector<double> solved_directions(double wavelength_nm, double pitch_nm, bool symmetric) {
     const double period = wavelength_nm / pitch_nm;
     const int count = std::max(1, static_cast<int>(std::ceil(period * EfficiencyGrid::kViews / 2.0)));
@@ -45,7 +45,7 @@ std::vector<double> solved_directions(double wavelength_nm, double pitch_nm, boo
     return directions;
 }
 
-/// Of one wavelength, by order of the grid.
+/// Samples of one wavelength, by order of the grid.
 using Samples = std::vector<std::vector<EfficiencyGrid::Sample>>;
 
 /// Adds what one solve gives: for light from every direction of its comb, each order; of a symmetric relief also for
@@ -62,7 +62,8 @@ void add(const OrderEfficiencies& solved, double s_g, double period, const std::
         }
 }
 
-/// η_m(v_g) = η_−m(−v_g) to the last bit: maps of such a grating need one half alone. `orders` are symmetric.
+/// Makes η_m(v_g) = η_−m(−v_g) to the last bit: maps of such a grating need one half alone. The grid has order −m for
+/// every order m.
 void make_symmetric(EfficiencyGrid& grid) {
     const std::size_t rows = grid.orders.size() * EfficiencyGrid::kWavelengths;
     for (std::size_t row = 0; row < rows; ++row) {
@@ -77,7 +78,7 @@ void make_symmetric(EfficiencyGrid& grid) {
     }
 }
 
-/// Reduces all efficiencies by one factor so that those of no direction sum to more than `most`.
+/// Reduces all efficiencies by one factor, if necessary, so that they sum to at most `most` for every direction.
 void limit_to(double most, EfficiencyGrid& grid) {
     const std::size_t nodes = grid.values.size() / grid.orders.size();
     double largest = 0.0;
@@ -95,9 +96,10 @@ void limit_to(double most, EfficiencyGrid& grid) {
     for (float& value : grid.values) value *= static_cast<float>(most / largest);
 }
 
-/// The relief may be on either side of a sheet: the mean of what each sends from v_g to s_g. Samples are in the order
-/// of v_g; their directions are closed under v_g → mλ/d − v_g.
-void exchange_sides(std::vector<EfficiencyGrid::Sample>& samples) {
+/// As the relief may be on either side of a sheet, replaces each efficiency by the mean of those of both sides: from
+/// s_g to v_g, and from v_g to s_g. Samples are in the order of v_g; their directions are closed under v_g → mλ/d −
+/// v_g.
+void average_sides(std::vector<EfficiencyGrid::Sample>& samples) {
     for (std::size_t i = 0; 2 * i < samples.size(); ++i) {
         double& a = samples[i].efficiency;
         double& b = samples[samples.size() - 1 - i].efficiency;
@@ -171,11 +173,11 @@ SolvedEfficiencies solve_efficiencies(const Relief& relief, const Substrate& sub
     for (int row = 0; row < kRows; ++row)
         for (std::size_t o = 0; o < orders.size(); ++o) {
             auto& samples = rows[static_cast<std::size_t>(row)][o];
-            // By both, so that the result does not depend on which of two at one direction was solved first.
+            // Sorted by both members, so that the order of two samples of one direction does not depend on the threads.
             std::ranges::sort(samples, {}, [](const EfficiencyGrid::Sample& sample) {
                 return std::pair(sample.v_g, sample.efficiency);
             });
-            if (std::holds_alternative<double>(substrate)) exchange_sides(samples);
+            if (std::holds_alternative<double>(substrate)) average_sides(samples);
             result.grid.set(o, row, samples);
         }
     if (symmetric) make_symmetric(result.grid);

@@ -8,26 +8,28 @@
 
 namespace rowland::diffraction {
 
-/// A tenth of what interpolation between the grid's nodes may be off; silver's edges under a cover leave no less.
+/// Tolerance to which efficiencies converge: a tenth of the error that interpolation between the grid's nodes may have.
+/// Silver reliefs with edges, under a cover, converge no further.
 inline constexpr double kGridTolerance = 2e-3;
 
 struct SolvedEfficiencies {
     EfficiencyGrid grid;
-    double error = 0.0;  ///< the largest change of an efficiency by the last orders that were added
-    int solves = 0;
+    double error = 0.0;  ///< largest change of an efficiency in the last increase of a truncation
+    int solves = 0;      ///< number of calls of solve() once the truncations are chosen
 };
 
 /// The efficiencies of all orders that leave a substrate with a relief, for light of all visible wavelengths from all
-/// directions of the classical plane, each mean of both polarisations. The relief may be on either side of a sheet: the
-/// mean of both. Converged to kGridTolerance. Uses all cores, the result does not depend on their number; shows
-/// progress as `name`. Throws Error (input) as solve_converged().
+/// directions of the classical plane; means of both polarisations and, for a sheet, of the relief on either side.
+/// Converged to kGridTolerance. Uses all cores; the result does not depend on their number. Shows progress as `name`.
+/// Throws Error (input) as check_relief() and solve_converged() do.
 ///
-/// One solve gives light from directions λ/d apart: a wavelength takes as many as fill the grid's step, of a symmetric
-/// relief half of them.
+/// One solve gives light from directions λ/d apart. Each wavelength takes as many solves as make the directions as
+/// dense as the grid's; a symmetric relief takes half of them.
 SolvedEfficiencies solve_efficiencies(const Relief& relief, const Substrate& substrate, const std::string& name);
 
-/// The grid of a grating that relief_of() takes. Those of the last few reliefs are kept. Of a sheet of reflectance ρ
-/// all are reduced by one factor where they and ρ would exceed 1.
+/// solve_efficiencies() of a grating. The grids of the last few reliefs are kept. If for some direction the
+/// efficiencies of a sheet and its reflectance sum to more than 1, all its efficiencies are reduced by one factor.
+/// Throws Error (input) as relief_of() and solve_efficiencies() do.
 std::shared_ptr<const EfficiencyGrid> rigorous_efficiencies(const Grating& grating, const std::string& name);
 
 }  // namespace rowland::diffraction

@@ -135,7 +135,7 @@ Stack lamellar_stack(const Relief& relief, Complex substrate, const Basis& basis
     StretchedBasis stretched{basis.alpha, {}};
     if (depth_nm > 0.0) {
         stretched = stretched_basis(shape->duty, basis.alpha);
-        // Cut-offs are exactly those of the grating equation.
+        // Orders that may propagate have their exact α: they cut off exactly where the grating equation says.
         const double largest = std::max(relief.ambient_ior, substrate.real());
         for (int i = 0; i < basis.alpha.size(); ++i)
             if (std::abs(basis.alpha[i]) < largest) stretched.kappa[i] = basis.alpha[i];

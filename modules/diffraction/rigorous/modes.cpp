@@ -8,7 +8,7 @@ namespace rowland::diffraction {
 using Eigen::MatrixXcd;
 
 std::complex<double> vertical_component(std::complex<double> permittivity, double kappa) {
-    // At a cut-off up and down are one mode, and a film's modes would not be complete.
+    // Not 0: at a cut-off the modes up and down would be one, and a film's modes incomplete.
     const std::complex<double> squared = permittivity - kappa * kappa;
     const std::complex<double> gamma = std::sqrt(std::abs(squared) < 1e-12 ? 1e-12 : squared);
     return gamma.imag() < 0.0 ? -gamma : gamma;
@@ -29,7 +29,7 @@ Propagating propagating(const Basis& basis, std::complex<double> index) {
 }
 
 Scattered scatter(std::span<const Modes> stack, bool transmits) {
-    // Field and flux at the top of what is below, for each amplitude down at the bottom of the slice above.
+    // Field and flux at the top of the slices so far, a column for each downward mode of the uppermost one.
     MatrixXcd field = stack.front().field_down;
     MatrixXcd flux = stack.front().flux_down;
     Scattered result;

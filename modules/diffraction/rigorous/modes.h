@@ -50,12 +50,13 @@ Propagating propagating(const Basis& basis, std::complex<double> index);
 /// √(ε − κ²) with a positive imaginary part, or real and positive; never 0.
 std::complex<double> vertical_component(std::complex<double> permittivity, double kappa);
 
-/// The stack of a relief, one for each polarisation. Modes of the top medium up and of the substrate down are, where
-/// they propagate, the plane waves of `propagating()`, at columns that `up` and `down` give; amplitudes are of E or H.
+/// The stack of a relief for each polarisation. Those upward modes of the top medium and downward modes of the
+/// substrate that propagate are the plane waves of propagating(), in columns from `up` and from `down` on, with
+/// amplitudes of E or H.
 struct Stack {
     std::vector<Modes> modes[2];  ///< by Polarisation
-    int up = 0;                   ///< column of the first plane wave that propagates upward; the others follow
-    int down = 0;
+    int up = 0;                   ///< column of the top medium's first plane wave
+    int down = 0;                 ///< column of the substrate's first plane wave
 };
 
 /// Largest length of a relief per length of the coordinate u that its fields are expanded over.

@@ -11,7 +11,7 @@
 
 namespace rowland::diffraction {
 
-/// A relief that the rigorous solver knows: periodic along g, uniform along h, on a substrate whose index is given with
+/// A relief that the rigorous solver takes: periodic along g, uniform along h, on a substrate whose index is given with
 /// the wavelength. A depth of 0 is a flat surface.
 ///
 /// Films follow the relief. On a sinusoidal one each surface of a film is the relief's moved up by the thickness. On a
@@ -27,29 +27,29 @@ struct Relief {
     friend bool operator==(const Relief&, const Relief&) = default;
 };
 
-/// Checks what solve() requires. Throws Error (input) that calls the relief `name`: pitch not in (0, 1e5] nm, depth not
-/// in [0, 4 pitches], duty not in (0, 1), an ambient index outside 1 to 4, more than kMaximumFilms films, a film
-/// thicker than the pitch or with an index outside 1 to 4.
+/// Checks what solve() requires. Throws Error (input) that calls the relief `name` for a pitch not in (0, 1e5) nm, a
+/// depth not in [0, 4 pitches], a duty not in (0, 1), an ambient index outside 1 to 4, more than kMaximumFilms films,
+/// or a film that is thicker than the pitch or has an index outside 1 to 4.
 void check_relief(const Relief& relief, const std::string& name);
 
 /// The coarsest grating that is solved: 105 orders of visible light are above the horizon.
 inline constexpr double kCoarsestSolved_nm = 20000.0;
 
-/// What lies under a relief: a metal, or the transparent sheet of this index that sends its light on through a flat
-/// other face.
+/// What lies under a relief: a metal, or a transparent sheet of this index, whose other face is flat.
 using Substrate = std::variant<colour::Metal, double>;
+/// n + ik.
 std::complex<double> index_of(const Substrate& substrate, double wavelength_nm);
 
-/// Why rigorous theory does not know a grating; nullopt for at least kManyGrooves lamellar, sinusoidal or blazed
-/// grooves of a metal, in air or under a cover, or of a sheet that transmits, at a pitch above λ/2, below which no
-/// order but 0 propagates, and up to kCoarsestSolved_nm, with a relief that check_relief() takes. Films are not looked
-/// at.
+/// Why rigorous theory cannot solve a grating; nullopt if it can. It takes at least kManyGrooves lamellar, sinusoidal
+/// or blazed grooves of a metal, in air or under a cover, or of a sheet that transmits. The pitch is above 190 nm, up
+/// to which no visible order but 0 propagates, and at most kCoarsestSolved_nm; the depth is at most four pitches. Films
+/// are not checked.
 std::optional<Refusal> rigorous_refusal(const Grating& grating);
 
 /// The relief of a grating with its films; a sheet's is mirrored, as it is thickest toward +g (PHYSICS §12). Throws
-/// Error (input) that calls it `name` where rigorous_refusal() or check_relief() does.
+/// Error (input) that calls it `name` where rigorous_refusal() or check_relief() refuses it.
 Relief relief_of(const Grating& grating, const std::string& name);
-/// Of a grating that relief_of() takes.
+/// The substrate of a grating that relief_of() takes.
 Substrate substrate_of(const Grating& grating);
 
 }  // namespace rowland::diffraction

@@ -58,7 +58,7 @@ void check_light(const Relief& relief, std::complex<double> substrate_index, dou
                      "n + ik with n > 0 and k >= 0: a medium without gain", "give k as a number that is not negative");
 }
 
-/// What the relief that is mirrored along g gives of light from the opposite directions.
+/// Turns the solution of a relief into that of the relief mirrored along g, for light from the opposite s_g.
 void mirror(OrderEfficiencies& solved) {
     const auto mirror_directions = [](std::vector<double>& v_g, int& first) {
         std::reverse(v_g.begin(), v_g.end());
@@ -181,7 +181,7 @@ Converged solve_converged(const Relief& relief, std::complex<double> substrate_i
                           double tolerance) {
     check_light(relief, substrate_index, wavelength_nm, s_g);
     int truncation = first_truncation(relief, substrate_index, wavelength_nm);
-    const int last = std::min(2 * truncation + 16, kMaximumTruncation);  // what has not converged by then never does
+    const int last = std::min(2 * truncation + 16, kMaximumTruncation);  // beyond, nothing converges any more
     const auto refuse = [&](const std::string& found) {
         refuse_input("rigorous solver",
                      fmt::format("pitch {} nm, wavelength {} nm, s_g {}", relief.pitch_nm, wavelength_nm, s_g), found,

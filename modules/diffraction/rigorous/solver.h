@@ -11,7 +11,7 @@ namespace rowland::diffraction {
 /// Efficiencies of one polarisation or the mean of both.
 enum class Light { TE, TM, Unpolarised };
 
-/// What one solve gives: light from every s_g + kλ/d that propagates, into every order.
+/// The efficiencies of one solve: of light from every s_g + kλ/d that propagates, into every order.
 ///
 /// All directions are g components in air: light from s_g = −v_g[i] that leaves as v_g[j] is of order j − i. In an
 /// ambient medium of index n directions up to |v_g| < n propagate; those of |v_g| > 1 do not leave it into air.
@@ -35,31 +35,33 @@ class OrderEfficiencies {
 
 /// η of `order` for light from s_g − kλ/d that a sheet of index `ior` under the relief sends into air on its other
 /// side: transmitted(), times Fresnel's transmittance of the flat face there. 0 for what that face reflects totally.
-/// What the two faces send back and forth is left out: .2 % for an index of 1.5.
+/// Reflections to and fro between the two faces are left out: .2 % for an index of 1.5.
 double through_sheet(const OrderEfficiencies& solved, int order, double ior, Light light = Light::Unpolarised,
                      int k = 0);
 
-/// What leaves `substrate`: reflected() by a metal, or through_sheet().
+/// η of the light that leaves `substrate`: reflected() by a metal, or through_sheet().
 double leaving(const OrderEfficiencies& solved, int order, const Substrate& substrate, Light light = Light::Unpolarised,
                int k = 0);
 
 /// The largest truncation that solve() takes: 2 s for a lamellar relief.
 inline constexpr int kMaximumTruncation = 160;
 
-/// Rigorous efficiencies of classical incidence (s_h = 0), from 2 `truncation` + 1 orders: Maxwell's equations up to
-/// the truncation. A lamellar relief is solved by the Fourier modal method with adaptive spatial resolution, others by
-/// the coordinate-transformation method. |s_g| < 1 in air, substrate n + ik with k ≥ 0. Orders beyond
-/// the truncation are left out. Throws Error (input) as check_relief() does, and for another s_g or index.
+/// Rigorous efficiencies of classical incidence (s_h = 0): Maxwell's equations with 2 `truncation` + 1 orders, of which
+/// those that propagate are given. A lamellar relief is solved by the Fourier modal method with adaptive spatial
+/// resolution, others by the coordinate-transformation method. 0 ≤ truncation ≤ kMaximumTruncation. Throws Error
+/// (input) as check_relief() does, and unless |s_g| < 1 (in air), 0 < wavelength_nm < 1e5 and substrate_index = n + ik
+/// with n > 0, k ≥ 0 and |n + ik| < 100.
 OrderEfficiencies solve(const Relief& relief, std::complex<double> substrate_index, double wavelength_nm, double s_g,
                         int truncation);
 
-/// The smallest truncation that is worth trying: all that propagates, and what the relief's shape needs.
+/// The smallest truncation that is worth trying: it holds all orders that propagate, and as many as the relief's shape
+/// needs.
 int first_truncation(const Relief& relief, std::complex<double> substrate_index, double wavelength_nm);
 
-/// first_truncation() and `margin` orders, at most kMaximumTruncation.
+/// first_truncation() plus `margin`, at most kMaximumTruncation.
 int truncation_with(int margin, const Relief& relief, std::complex<double> substrate_index, double wavelength_nm);
 
-/// Light that a solve gives: from `s_g`, |s_g| < 1, for the `k` of OrderEfficiencies::reflected().
+/// Light that a solve includes: from `s_g`, |s_g| < 1, with its `k` for OrderEfficiencies::reflected().
 struct CombLight {
     int k = 0;
     double s_g = 0.0;
@@ -74,13 +76,13 @@ inline constexpr double kSumTolerance = 1e-6;
 struct Converged {
     OrderEfficiencies efficiencies;
     int truncation = 0;
-    int added = 0;       ///< so much larger than the truncation before
+    int added = 0;       ///< difference from the truncation before
     double error = 0.0;  ///< largest change of any efficiency between the two
 };
 
-/// Raises the truncation until no efficiency of light from s_g changes by more than `tolerance` and their sum is at
-/// most 1 + kSumTolerance. Throws Error (input) that states how far from that it is at kMaximumTruncation, and what to
-/// change.
+/// Raises the truncation until no efficiency of light from s_g, in either polarisation, changes by more than
+/// `tolerance`, and their sum is at most 1 + kSumTolerance. Throws Error (input) as solve() does, and if the limit, at
+/// most kMaximumTruncation, is reached first: it then states the last changes and what to do.
 Converged solve_converged(const Relief& relief, std::complex<double> substrate_index, double wavelength_nm, double s_g,
                           double tolerance = 5e-4);
 

@@ -59,8 +59,8 @@ Curve curve_of(const SinusoidalProfile& shape, double pitch_nm, int cells) {
     return curve;
 }
 
-/// du/du₀ of the curve at the edges of a blazed relief, in units of the facet's mean: the fluxes, which jump there, are
-/// made small. (Adaptive spatial resolution, Granet et al. 2001, JOSA A 18, 2102.)
+/// Length of a blazed relief's curve per length of u at its edges, in units of the facet's mean. It is small so that
+/// the fluxes, which jump there, are small (adaptive spatial resolution, Granet et al. 2001, JOSA A 18, 2102).
 constexpr double kStretchAtEdges = 0.005;
 
 /// The fraction of a period of u that the short facet takes. Fitted: it makes the error smallest (MEASUREMENTS §14).
