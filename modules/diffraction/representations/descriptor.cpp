@@ -11,7 +11,7 @@ namespace rowland::diffraction {
 namespace {
 
 constexpr int kMostBands = 16;
-constexpr int kMostArcRank = 16;   ///< three varyings for every four
+constexpr int kMostArcRank = 16;   ///< every four take three varyings
 constexpr int kMostLayers = 2048;  ///< of a texture array, on any device with OpenGL 4.5
 constexpr int kOneDimensionalNodes = 256;
 
