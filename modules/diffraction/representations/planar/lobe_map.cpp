@@ -78,8 +78,7 @@ class AzimuthPair {
     FourierTransform along_h_;
     std::vector<float> between_g_;
     std::vector<float> between_h_;
-    std::size_t
-        row_stride_;  ///< floats of a row; not a power of two, so that a column's floats are not in one cache set
+    std::size_t row_stride_;  ///< in floats; not a power of two, so that a column's floats are not in one cache set
     std::array<std::vector<float>, 2> parts_;   ///< real and imaginary: views.g + 2 kMargin rows
     std::array<std::vector<float>, 2> column_;  ///< a column, and room for a transform's work
     std::array<std::vector<float>, 2> light_;   ///< a column of the light alone, for patterns of several terms

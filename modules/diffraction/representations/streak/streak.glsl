@@ -1,12 +1,13 @@
 // A narrow lobe mirrors the probe along the grooves and disperses it across them: streak.h, evaluate(). The program
-// defines NODES, the number of nodes of a segment, and REST where an arc table shades the incoherent part of Stam's pits.
+// defines NODES, the number of nodes of a segment, and REST where an arc table shades the incoherent part of Stam's
+// pits.
 #include "modules/diffraction/representations/streak/streak_path.glsl"
 #ifdef REST
 #include "modules/diffraction/representations/arc/arc.glsl"
 #endif
 
-// A segment: x: its first path over the pitch; y: its step over the pitch. Then for each node the columns of its weight,
-// for red, green and blue light, in the working space.
+// A segment: x: its first path over the pitch; y: its step over the pitch. Then for each node the columns of its
+// weight, for red, green and blue light, in the working space.
 #ifdef GL_ES
 STORAGE(6, StreakSegments, vec4, streak_segments);
 uniform int streak_segment_count;
