@@ -105,7 +105,8 @@ SettingInfo storage_setting(Storage default_value) {
 }
 
 ViewGrid default_view_grid(const Grating& grating) {
-    if (sees_v_g_alone(grating)) return {.mapping = ViewMapping::OneDimensional, .columns = 256, .rows = 1};
+    if (sees_v_g_alone(grating))
+        return {.mapping = ViewMapping::OneDimensional, .columns = kOneDimensionalNodes, .rows = 1};
     return {.mapping = ViewMapping::Spherical, .columns = 64, .rows = 32};
 }
 

@@ -89,7 +89,7 @@ SettingInfo view_mapping_setting();
 SettingInfo view_resolution_setting();
 SettingInfo storage_setting(Storage default_value);
 
-/// The default grid over views, with measured errors. Flat lobe: 256 nodes over v_g, an error of 1e-4 or less for
+/// The default grid of arc tables, with measured errors. Flat lobe: 256 nodes over v_g, an error of 1e-4 or less for
 /// pitches of 740 nm or more. Others: 64 × 32 spherical nodes, .3 % for a lobe with a sigma of .3 under 5 bands (as
 /// many parabolic nodes: .9 %), and .7 to 1.6 % for a lattice.
 ViewGrid default_view_grid(const Grating& grating);
