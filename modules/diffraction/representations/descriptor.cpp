@@ -11,7 +11,7 @@ namespace rowland::diffraction {
 namespace {
 
 constexpr int kMostBands = 16;
-constexpr int kMostArcRank = 16;   ///< three varyings for every four
+constexpr int kMostArcRank = 16;   ///< every four take three varyings
 constexpr int kMostLayers = 2048;  ///< of a texture array, on any device with OpenGL 4.5
 constexpr int kOneDimensionalNodes = 256;
 
@@ -105,7 +105,8 @@ SettingInfo storage_setting(Storage default_value) {
 }
 
 ViewGrid default_view_grid(const Grating& grating) {
-    if (sees_v_g_alone(grating)) return {.mapping = ViewMapping::OneDimensional, .columns = 256, .rows = 1};
+    if (sees_v_g_alone(grating))
+        return {.mapping = ViewMapping::OneDimensional, .columns = kOneDimensionalNodes, .rows = 1};
     return {.mapping = ViewMapping::Spherical, .columns = 64, .rows = 32};
 }
 

@@ -30,8 +30,8 @@ struct SettingInfo {
     const char* key = "";
     const char* label = "";  ///< for people
     const char* help = "";
-    int minimum = 0;  ///< of a whole number, inclusive as the maximum
-    int maximum = 0;
+    int minimum = 0;                        ///< of a whole number, inclusive
+    int maximum = 0;                        ///< likewise
     std::vector<std::string_view> words{};  ///< not empty: the setting is one of these words, not a number
     /// Null if it depends on the grating or on other settings.
     nlohmann::json default_value{};
@@ -65,7 +65,8 @@ struct RepresentationInfo {
 /// Settings of one representation, each within its SettingInfo's limits.
 class SettingValues {
  public:
-    /// Reads the settings of `info` from `json`. Throws Error (input) for a value out of its limits.
+    /// Reads the settings of `info` from `json`. Throws Error (input) for a number out of its limits, an unknown word
+    /// or a setting that was replaced.
     SettingValues(const RepresentationInfo& info, JsonReader& json);
 
     bool has(const char* key) const { return values_.contains(key); }
@@ -88,18 +89,19 @@ SettingInfo view_mapping_setting();
 SettingInfo view_resolution_setting();
 SettingInfo storage_setting(Storage default_value);
 
-/// Flat lobe: 256 nodes over v_g, an error of 1e-4 or less from 740 nm pitch on. Others: 64 × 32 spherical nodes, .3 %
-/// for a lobe of .3 under 5 bands; as many parabolic nodes have .9 %. A lattice has .7 to 1.6 % (measured).
+/// The default grid of arc tables, with measured errors. Flat lobe: 256 nodes over v_g, an error of 1e-4 or less for
+/// pitches of 740 nm or more. Others: 64 × 32 spherical nodes, .3 % for a lobe with a sigma of .3 under 5 bands (as
+/// many parabolic nodes: .9 %), and .7 to 1.6 % for a lattice.
 ViewGrid default_view_grid(const Grating& grating);
 
 /// "view_resolution" is the number of rows: spherical tables have twice as many columns, parabolic ones as many, and
 /// one-dimensional ones that many nodes.
 ViewGrid view_grid(ViewMapping mapping, int resolution);
-/// The grid that "view_mapping" and "view_resolution" ask for, of `defaults` where they are absent.
+/// The grid that "view_mapping" and "view_resolution" ask for. An absent one is taken from `defaults`.
 ViewGrid view_grid(const SettingValues& values, const ViewGrid& defaults);
 /// Refuses a one-dimensional grid for a grating that depends on more than v_g.
 std::optional<Refusal> view_grid_refusal(const SettingValues& values, const Grating& grating);
-/// Refuses more layers of four coefficients than every device supports in a texture array.
+/// Refuses more layers of four coefficients than every device supports in a texture array. `key`: the setting to blame.
 std::optional<Refusal> layer_refusal(const char* key, int layers);
 
 /// "name: value" lines for people.
@@ -110,8 +112,8 @@ Facts with_view_table(Facts facts, const ViewGrid& grid, const PackedTexels& pac
 /// Bytes of SH light per vertex.
 std::size_t harmonics_bytes(int bands);
 
-/// Throws Error (input) unless `is_so`: a file's table must have the sizes that its material asks for, as only those
-/// are checked against the limits of shaders and textures.
+/// Throws Error (input) unless `is_so`. A file's table must have the sizes that its material asks for, since only the
+/// material's are checked against the limits of shaders and textures.
 void require_as_asked(const ByteReader& reader, bool is_so);
 
 }  // namespace rowland::diffraction

@@ -78,8 +78,8 @@ class ProbeLights {
     std::map<std::pair<int, math::SphericalWindow>, EvaluationLight> splits_;
 };
 
-/// XYZ of one point, under a cover without T(v_n) (PHYSICS §10). May be called from many threads, except for planar
-/// maps.
+/// XYZ of one point. Under a cover, T(v_n) is left out (PHYSICS §10). May be called from many threads, except for
+/// planar maps.
 using PointShader = std::function<glm::dvec3(const ShadingPoint&)>;
 
 /// The parts of a baked material that maps are filled from.

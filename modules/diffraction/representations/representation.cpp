@@ -37,7 +37,7 @@ std::string names_for(Lobes lobes) {
     return names;
 }
 
-/// Everything that a representation for grooves would need is a function of u_g alone.
+/// Refuses a lattice for representations of grooves, which tabulate functions of u_g alone.
 std::optional<Refusal> lattice_refusal(const RepresentationInfo& info, const Grating& grating) {
     if (!grating.lattice || info.lattices) return std::nullopt;
     std::string names;

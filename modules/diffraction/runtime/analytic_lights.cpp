@@ -26,11 +26,11 @@ glm::dmat3 xyz_to_kernel(const CookedMaterial& cooked, const glm::dmat3& xyz_to_
     return std::holds_alternative<PitsLobe>(cooked.material.grating.lobe) ? glm::dmat3(1.0) : xyz_to_working;
 }
 
-/// What is kept for so many probes.
+/// Number of probes whose key lights' tables are kept.
 constexpr std::size_t kKeptLobes = 16;
 
-/// The first that is `wanted`, moved to the front; else what `make` returns, instead of that which was not used for
-/// longest.
+/// The first of `kept` that is `wanted`, else a new one by `make`, moved to the front. A new one may replace the least
+/// recently used.
 template <typename Lobes, typename Wanted, typename Make>
 const Lobes& last_used(std::vector<Lobes>& kept, const Wanted& wanted, const Make& make) {
     auto found = std::ranges::find_if(kept, wanted);
@@ -63,8 +63,7 @@ const GpuKernel::Blurred& GpuKernel::blurred() const {
 
 GpuKernel::Smoothed GpuKernel::smooth(std::span<const glm::vec3> light_colours) const {
     const BlurredKernel& kernel = blurred().kernel;
-    // fp16 would add an error of 5e-4 to that of the texture unit's 8-bit weights; of several views it is the lesser
-    // one.
+    // fp16 adds an error of 5e-4. With several views, that of the texture unit's 8-bit weights is larger.
     const bool volume = kernel.views > 1;
     Smoothed smoothed{
         .texture = gpu::Texture({.kind = volume ? gpu::TextureKind::Volume : gpu::TextureKind::PlaneArray,
@@ -176,7 +175,7 @@ gpu::Texture layered_texture(int size, std::size_t layers, std::size_t levels) {
                         gpu::Sampling{.filter = gpu::Filter::Trilinear});
 }
 
-/// `value(density)`: of a texel.
+/// `value(density)`: the value of a texel.
 template <typename Picture, typename ValueOf>
 void upload_layer(gpu::Texture& texture, const Picture& picture, std::size_t layer, const ValueOf& value) {
     for (std::size_t level = 0; level < picture.levels.size(); ++level) {
@@ -241,7 +240,7 @@ void GpuPattern::bind(const gpu::Program& program, std::span<const lighting::Key
     if (program.has_uniform("pattern_scale")) {
         if (!texture_ || !std::ranges::equal(colours_, light_colours)) upload_colours(light_colours);
         texture_->bind(kKernelUnit);
-        // The level of a variance: half its binary logarithm, and this.
+        // level = ½ log₂(variance) + bias
         const double bias = -0.5 * std::log2(picture_->texel_variance());
         program.set("pattern_scale",
                     glm::vec4(glm::dvec4(0.5 / picture_->half_width, bias, double{largest_}, picture_->half_width)));

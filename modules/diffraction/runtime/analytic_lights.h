@@ -23,9 +23,9 @@ namespace rowland::diffraction {
 /// shaders/key_light_tables.glsl. They do not depend on the lights' directions.
 class GpuLobes {
  public:
-    /// At least one light.
+    /// `lights`: at least one.
     GpuLobes(const BlurredKernel& kernel, std::span<const lighting::KeyLight> lights);
-    /// Whether they are those of these lights, which may have turned.
+    /// Whether the tables are those of `lights`, whatever their directions.
     bool are_of(std::span<const lighting::KeyLight> lights) const { return same_lobes(lights, lights_); }
     void bind(const gpu::Program& program, const KernelUniforms& kernel, double pitch_nm) const;
 
@@ -40,7 +40,7 @@ class GpuLobes {
 /// The kernel for analytic lights and key lights: shaders/kernel.glsl.
 class GpuKernel {
  public:
-    /// `xyz_to_working`: of the engine's lights, which come in the working space.
+    /// `xyz_to_working`: to the working space, in which the engine gives its lights.
     GpuKernel(std::shared_ptr<const CookedMaterial> cooked, const glm::dmat3& xyz_to_working);
 
     bool has_zero_order() const { return zero_order_ != glm::mat3(0.0F); }
@@ -75,11 +75,11 @@ class GpuKernel {
 /// A lattice's diffraction pattern for analytic lights and key lights: shaders/pattern.glsl.
 class GpuPattern {
  public:
-    /// `xyz_to_working`: of the engine's lights, which come in the working space.
+    /// `xyz_to_working`: to the working space, in which the engine gives its lights.
     GpuPattern(const Material& material, const glm::dmat3& xyz_to_working);
 
     /// Computes and uploads pictures when a program first reads them, and when the lights' colours or the key lights
-    /// change, but for their directions. `light_colours`: see SurfaceLight.
+    /// change other than in direction. `light_colours`: see SurfaceLight.
     void bind(const gpu::Program& program, std::span<const lighting::KeyLight> key_lights,
               std::span<const glm::vec3> light_colours) const;
 

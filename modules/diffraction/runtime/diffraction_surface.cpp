@@ -76,7 +76,7 @@ bool is_filling(const SurfaceState& state) {
            (state.second && is_filling(*state.second));
 }
 
-/// In each slot, the surface as it is drawn in this frame.
+/// Sets the state of each slot to the surface as it is drawn in this frame.
 void take(ecs::World& world, ecs::Entity entity) {
     DiffractionSurface surface = world.get<DiffractionSurface>(entity);
     const auto& mesh = world.get<render::MeshInstance>(entity).mesh;
@@ -94,7 +94,7 @@ SurfaceState& state_of(ecs::World& world, ecs::Entity entity, render::ProbeSlot 
     return world.get<SurfaceState>(entity).in(slot);
 }
 
-/// Gives each slot the data that the object has for its probe, though the other slot had it. `fades`: to another rung.
+/// Gives each slot the data that the object has for its probe, even if the other slot had it. `fades`: to another rung.
 void take_probes(const render::LightMix& mix, bool fades, SurfaceState& state) {
     if (fades != std::exchange(state.fades, fades)) state.second.reset();
     if (fades) {

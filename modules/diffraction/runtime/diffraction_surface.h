@@ -76,12 +76,12 @@ class DiffractionSurfaceType final : public render::MaterialType {
  private:
     void follow_budget(ecs::World& world, std::span<const render::LitEntity> seen);
     void update_seen(ecs::World& world, const render::LitEntity& lit);
-    /// Under one of its probes.
+    /// Updates an entity's data under one of its probes.
     void update_lit(ecs::World& world, ecs::Entity entity, SurfaceLight& light, SurfaceState& state, bool may_wait);
-    /// Of the probe that lights it in a slot.
+    /// The light of the probe that `state` is for.
     const SurfaceLight& light_of(const SurfaceState& state) const { return *lights_[state.probe]; }
     void warn_illuminant_mismatch(const std::string& baked_for, const std::string& lit_by);
-    /// One for all objects with the same texture and the same object of it.
+    /// One map for all surfaces with the same image and equal "grooveTexture" objects.
     std::shared_ptr<const GrooveMap> groove_map(const GrooveTexture& use, const render::MaterialExtension& extension,
                                                 render::SurfaceTextures& textures);
     std::shared_ptr<const GpuMaterial> uploaded(const std::vector<std::byte>& tables, const std::string& file);

@@ -36,7 +36,8 @@ struct Step {
     double saved;    ///< error per time
 };
 
-/// Depth-first search for the least error, with the bound of the steps' efficiency at which the time was used up.
+/// Depth-first search for the least error. The bound is a Lagrangian relaxation, whose multiplier is the steps'
+/// efficiency at which the time was used up.
 class Search {
  public:
     Search(std::span<const std::vector<RungOption>> objects, double ms, double efficiency,

@@ -33,16 +33,16 @@ struct RungOption {
     double ms = 0.0;
 };
 
-/// For each object the index of its option, so that the sum of errors is the least with a sum of times of at most `ms`;
-/// the fastest of all if even those take longer. Each object has options. Exact for a few objects, for many within what
-/// the best exchange of one object's option gives.
+/// The index of an option for each object, such that the sum of errors is the least with a sum of times of at most
+/// `ms`; the fastest options if even these take longer. Each object has at least one. Exact for a few objects; for
+/// many, the sum of errors exceeds the least by no more than a change of one object's option saves.
 std::vector<std::size_t> assign_rungs(std::span<const std::vector<RungOption>> objects, double ms);
 
 /// What draws of each kind cost on this machine, learned from what they took: a price per sample for each kind, and the
 /// time that a unit of price takes, which follows the machine's load.
 class DrawCosts {
  public:
-    /// A kind that nothing is known of, at a price that is right but for a factor of all kinds.
+    /// Adds a kind, unless it is known, at an estimated price per sample. The unit is any, but the same for all kinds.
     void expect(std::uint64_t kind, double price) { prices_.try_emplace(kind, price); }
 
     struct Run {
@@ -50,9 +50,10 @@ class DrawCosts {
         double samples = 0.0;
         double ms = 0.0;
     };
-    /// The runs of a frame.
+    /// Updates prices and load from the runs of a frame.
     void learn(std::span<const Run> frame);
 
+    /// The expected time; 0 for an unknown kind and before learn().
     double ms(std::uint64_t kind, double samples) const;
 
  private:

@@ -10,7 +10,7 @@ namespace rowland::diffraction {
 
 namespace {
 
-/// Between points of an order, in direction cosines: below a cell of most pictures.
+/// Distance between points of an order, in direction cosines: below a cell of most pictures.
 constexpr double kPointStep = 0.001;
 
 /// ∫ η₀ cmf Eᵀ dλ

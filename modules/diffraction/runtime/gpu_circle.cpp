@@ -12,7 +12,7 @@ namespace rowland::diffraction {
 
 namespace {
 
-/// The texels of a row that one look-up of the terms reads.
+/// Appends the texels of a row that one look-up of the terms reads.
 void append(const CircleGrid& grid, int chart, int view, int row, int look_up, std::vector<glm::vec4>& texels) {
     for (int column = 0; column < grid.side; ++column) {
         glm::vec4& texel = texels.emplace_back(0.0F);
@@ -43,7 +43,7 @@ MapTexels terms_in_layout(const CircleGrid& grid, int charts) {
                 {.filter = gpu::Filter::Linear});
 }
 
-/// The remainder's angles, side by side as well.
+/// The remainder's functions, also side by side.
 std::optional<MapTexels> rest_in_layout(const CircleGrid& grid, int charts) {
     if (grid.functions == 0) return std::nullopt;
     std::vector<glm::vec3> texels;

@@ -12,7 +12,7 @@
 
 namespace rowland::diffraction {
 
-/// Largest magnitude of a component, above 0.
+/// Largest magnitude of a component, at least 1e-30.
 float largest_component(std::span<const glm::vec3> xyz);
 float largest_component(std::span<const glm::vec4> values);
 
@@ -44,7 +44,7 @@ class GpuMap {
     /// Uploads up to so many slices, at least one; true when all are uploaded.
     bool upload(int slices);
 
-    /// All must be uploaded. `second`: beside another map of the same program.
+    /// All slices must be uploaded. `second`: beside another map of the same program.
     void bind(const gpu::Program& program, bool second) const;
     gpu::Texture texture() && { return std::move(texture_); }
 

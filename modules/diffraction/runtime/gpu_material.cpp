@@ -20,7 +20,7 @@ namespace rowland::diffraction {
 
 namespace {
 
-/// Both sides of a sheet.
+/// Whether the grating is one of the sides of a sheet.
 bool passes_light(const Grating& grating) {
     return grating.transmission || grating.side_reflectance;
 }
@@ -39,7 +39,7 @@ bool defines(const gpu::ProgramDesc& desc, const char* name) {
     return std::ranges::any_of(desc.defines, [&](const gpu::Define& define) { return define.first == name; });
 }
 
-/// Adds to the fragment stage's samplers that the engine is told of.
+/// Adds to the number of the fragment stage's samplers, which the engine reads from kMaterialSamplers.
 void add_samplers(gpu::ProgramDesc& desc, int samplers) {
     for (auto& [name, value] : desc.defines)
         if (name == render::kMaterialSamplers) {
@@ -99,7 +99,7 @@ std::uint64_t GpuMaterial::program_key(const SurfaceState& state) const {
 
 void GpuMaterial::add_defines(const SurfaceState& state, gpu::ProgramDesc& desc) const {
     if (separate_lights_) desc.defines.push_back({"SEPARATE_LIGHTS", "1"});
-    // It is nearly linear between vertices, and at the pixels a fifth of the plain surface.
+    // Ambient light is nearly linear between vertices, and at the pixels takes a fifth of the plain surface's time.
     desc.defines.push_back({"AMBIENT_AT_VERTICES", "1"});
     if (cooked_->material.grating.cover) desc.defines.push_back({"COVER", "1"});
     if (transmits()) desc.defines.push_back({"TRANSMISSION", "1"});

@@ -50,7 +50,7 @@ struct SurfaceState {
     std::unique_ptr<SurfaceState> second;     ///< under the second probe, or of the rung that fades in; or null
     bool fades = false;                       ///< `second` is of another rung
 
-    /// One that is not seen has no second yet.
+    /// The state of a slot. Without `second`, as of an object that was never seen, one state serves both slots.
     SurfaceState& in(render::ProbeSlot slot) { return slot == render::ProbeSlot::Second && second ? *second : *this; }
 };
 
@@ -62,7 +62,7 @@ struct SurfaceObject {
     bool skinned = false;
     bool changed = true;  ///< since the last frame: light, orientation, mesh, rotation or material
     MapCache& maps;
-    bool may_wait = true;  ///< the frame, for a first map
+    bool may_wait = true;  ///< whether the frame may wait for the object's first map
 };
 
 /// A cooked material on the GPU. One class per representation implements it.
@@ -86,7 +86,7 @@ class GpuMaterial {
     virtual void update(const SurfaceObject& object, SurfaceLight& light, SurfaceState& state) const = 0;
 
     gpu::ProgramDesc program(const SurfaceState& state) const;
-    /// Of the material and what program() depends on in the state; not 0.
+    /// Key of the material and of what program() depends on in the state; not 0.
     std::uint64_t program_key(const SurfaceState& state) const;
     /// The program must be in use.
     void bind(const gpu::Program& program, const SurfaceLight& light, const SurfaceState& state) const;
@@ -97,7 +97,7 @@ class GpuMaterial {
     /// The kernel and order 0 of cooked() in the working space.
     MaterialKernel working_material() const;
 
-    /// The light that is not shaded light by light.
+    /// The SH and the samples of the light that is not shaded light by light.
     const lighting::ShLight& harmonics(SurfaceLight& light, int bands) const {
         return separate_lights_ ? light.probe_harmonics(bands, key_lights_) : light.whole_harmonics(bands);
     }
@@ -108,13 +108,13 @@ class GpuMaterial {
     /// The representation's shader file and defines.
     virtual void describe(const SurfaceState& state, gpu::ProgramDesc& desc) const = 0;
     virtual void bind_tables(const gpu::Program& program, const SurfaceState& state) const = 0;
-    /// What the vertex stage reads: storage buffers, bytes of one for each vertex, texels of a buffer for each vertex.
+    /// What the vertex stage reads.
     struct VertexLight {
-        int blocks = 1;
-        std::size_t bytes = 0;
-        std::size_t texels = 0;
+        int blocks = 1;          ///< storage buffers
+        std::size_t bytes = 0;   ///< of a storage buffer, per vertex
+        std::size_t texels = 0;  ///< of a buffer texture, per vertex
     };
-    /// Throws Error (system) if the GPU cannot read that.
+    /// Throws Error (system) if the GPU cannot read that much.
     void require_vertex_light(const SurfaceObject& object, const VertexLight& light) const;
 
  private:
@@ -146,8 +146,8 @@ inline std::shared_ptr<const GpuMaterial> make_gpu_material(CookedMaterial cooke
     return make_gpu_material(std::make_shared<const CookedMaterial>(std::move(cooked)), xyz_to_working);
 }
 
-/// Names the shader file, below modules/diffraction/, that gives the light from the probe at the pixels, by so many
-/// samplers.
+/// Names the shader file, below modules/diffraction/, that gives the light from the probe at the pixels. `samplers`:
+/// the number that it declares.
 void set_pixel_shader(gpu::ProgramDesc& desc, const char* file, int samplers = 1);
 /// The same at the vertices.
 void set_vertex_shader(gpu::ProgramDesc& desc, const char* file);

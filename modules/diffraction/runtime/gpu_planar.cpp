@@ -66,8 +66,8 @@ struct LobeFilling {
         Level coarse;
         Level full;
     };
-    Levels all;  ///< azimuths
-    Levels one;
+    Levels all;  ///< of all azimuths
+    Levels one;  ///< of one azimuth
     glm::dmat3 xyz_to_working;
 
     FilledMap operator()(const MapInput& input, MapDetail detail, const std::stop_token& stop) const {

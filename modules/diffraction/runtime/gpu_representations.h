@@ -83,8 +83,8 @@ class GpuDirect final : public GpuMaterial {
 };
 
 /// One map for all flat objects with one normal: planar_map.glsl. It follows the normal and the probe; a rotation about
-/// the normal leaves it valid, unless it is over v_g and v_h alone, as all points have one g. An arc table shades
-/// objects that are not flat, those without a probe's texels, and others until there is a map.
+/// the normal leaves it valid, except for a map of one g, over v_g and v_h alone. An arc table shades objects
+/// that are not flat, those without a probe's texels, and others until there is a map.
 class GpuPlanar final : public GpuMaterial {
  public:
     GpuPlanar(std::shared_ptr<const CookedMaterial> cooked, const PlanarTables& tables,

@@ -15,7 +15,7 @@ namespace {
 /// StreakSegment of streak.glsl, std430.
 struct ShaderSegment {
     glm::vec4 first_step;  ///< x: first path over the pitch; y: step over the pitch
-    /// For each node the columns: of red, green and blue light, working space.
+    /// For each node the columns of its weight, for red, green and blue light, in the working space.
     std::array<glm::vec4, std::size_t{3} * kSegmentNodes> weights;
 };
 static_assert(sizeof(ShaderSegment) == 16 * (1 + 3 * kSegmentNodes));

@@ -19,12 +19,12 @@
 namespace rowland::diffraction {
 
 /// A texture that varies the grating over a surface. R: rotation / π, added to the surface's; G: half the pitch over
-/// the material's; 0: no grating. Pixels see the mean grooves of what they cover, and how these vary (PHYSICS §11);
+/// the material's, 0 for no grating. Pixels see the mean grooves of what they cover, and how these vary (PHYSICS §11);
 /// with GrooveTexture::sparkle those of one texel.
 class GrooveMap {
  public:
     /// The texture that the glTF extension at the JSON pointer `pointer` of `file` names. Throws Error (input) if there
-    /// is none.
+    /// is none, or for other sets of texture coordinates than 0 and 1.
     GrooveMap(const GrooveTexture& use, render::SurfaceTextures& textures, const std::string& file,
               const std::string& pointer);
 
@@ -40,7 +40,7 @@ class GrooveMap {
     void add_defines(bool even, gpu::ProgramDesc& desc) const;
     void bind(bool even, const gpu::Program& program) const;
 
-    /// groove_moments(). Created at the first call.
+    /// The texture of groove_moments(), created at the first call.
     const gpu::Texture& moments(bool even) const;
 
  private:

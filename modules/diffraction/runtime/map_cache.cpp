@@ -16,7 +16,7 @@ namespace {
 
 /// Smaller changes of a map's axes do not show at its resolution.
 constexpr double kSameAxis = 1e-5;
-/// Of a full map, in one frame.
+/// Slices of a full map that a frame uploads.
 constexpr int kSlicesPerFrame = 8;
 constexpr int kAllSlices = std::numeric_limits<int>::max();
 constexpr std::size_t kSpareTextures = 8;
@@ -163,8 +163,8 @@ void MapCache::begin_frame() {
             for (GpuMap& part : map->parts) spare_.push_back(std::move(part).texture());
         return true;
     });
-    const bool rests = std::ranges::all_of(maps_, [](const auto& map) { return map->shown == MapDetail::Full; });
-    if (rests) spare_.clear();
+    const bool all_full = std::ranges::all_of(maps_, [](const auto& map) { return map->shown == MapDetail::Full; });
+    if (all_full) spare_.clear();
     if (spare_.size() > kSpareTextures)
         spare_.erase(spare_.begin(), spare_.end() - static_cast<std::ptrdiff_t>(kSpareTextures));
     ++frame_;

@@ -144,7 +144,7 @@ class ObjectMap {
 
     /// Null: there is none under this light.
     const std::shared_ptr<SharedMap>& shown() const { return shown_; }
-    /// Until the full map of the last input is shown.
+    /// Whether the full map of the last input is not shown yet.
     bool is_filling() const { return wanted_ && !(shown_ == wanted_ && shown_->shown == MapDetail::Full); }
 
  private:

@@ -42,7 +42,7 @@ struct DrawnRung {
     const std::shared_ptr<const GpuMaterial>& next_material() const { return (*ladder)[wanted].material; }
 };
 
-/// A rung's last frames, in which the next one fades in.
+/// Frames in which the next rung fades in.
 inline constexpr int kFadeFrames = 8;
 
 /// Chooses the rungs of all objects in each frame so that their draws take no longer than a FrameBudget, as measured.
@@ -65,7 +65,7 @@ class RungControl final : public render::DrawControl {
     const FrameBudgetReport& report() const { return report_; }
 
  private:
-    /// An object that was counted.
+    /// A seen object whose samples were counted.
     struct Candidate {
         DrawnRung* drawn;
         double samples;  ///< of both slots

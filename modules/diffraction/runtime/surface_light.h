@@ -51,7 +51,7 @@ class SurfaceLight {
 
     /// The probe and the directional lights in this number of bands, windowed.
     const lighting::ShLight& whole_harmonics(int bands);
-    /// The probe without key_lights(most), in this number of bands, windowed.
+    /// The probe without key_lights(key_light_limit), in this number of bands, windowed.
     const lighting::ShLight& probe_harmonics(int bands, int key_light_limit);
     /// The same light at full resolution; null if the probe has no samples.
     const std::shared_ptr<const lighting::LightSamples>& probe_samples(int key_light_limit) const;

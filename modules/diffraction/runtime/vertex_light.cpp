@@ -41,16 +41,16 @@ struct SplitFrames {
 };
 
 /// Rotates tangents about normals; leaves them unchanged for an angle of 0.
-class GrooveTurn {
+class GrooveRotation {
  public:
     /// `mirroring`: sign of the determinant of the frames' transform.
-    GrooveTurn(double radians, double mirroring)
+    GrooveRotation(double radians, double mirroring)
         : cosine_(static_cast<float>(std::cos(radians))),
           sine_(static_cast<float>(std::sin(radians) * (mirroring < 0.0 ? -1.0 : 1.0))),
-          turns_(radians != 0.0) {}
+          rotates_(radians != 0.0) {}
 
     glm::vec3 operator()(const glm::vec3& tangent, const glm::vec3& normal, float bitangent_sign) const {
-        if (!turns_) return tangent;
+        if (!rotates_) return tangent;
         const glm::vec3 n = glm::normalize(normal);
         const glm::vec3 g = glm::normalize(tangent - n * glm::dot(n, tangent));
         return cosine_ * g + sine_ * bitangent_sign * glm::cross(n, g);
@@ -59,37 +59,38 @@ class GrooveTurn {
  private:
     float cosine_;
     float sine_;
-    bool turns_;
+    bool rotates_;
 };
 
 /// The object's rotation, if its matrix is a rotation times a scale; nullopt for a stretched, sheared or mirrored
 /// object.
-std::optional<glm::dmat3> rigid_turn(const glm::dmat3& linear) {
+std::optional<glm::dmat3> rigid_rotation(const glm::dmat3& linear) {
     const double scale = std::cbrt(glm::determinant(linear));
     if (!(scale > 0.0)) return std::nullopt;
-    const glm::dmat3 turn = linear / scale;
-    const glm::dmat3 product = glm::transpose(turn) * turn;
+    const glm::dmat3 rotation = linear / scale;
+    const glm::dmat3 product = glm::transpose(rotation) * rotation;
     for (int i = 0; i < 3; ++i)
         for (int j = 0; j < 3; ++j)
             // A product of float rotations is a rotation to a few roundings.
             if (std::abs(product[i][j] - (i == j ? 1.0 : 0.0)) > 1e-6) return std::nullopt;
-    const glm::dvec3 x = glm::normalize(turn[0]);
-    const glm::dvec3 z = glm::normalize(glm::cross(x, turn[1]));
+    const glm::dvec3 x = glm::normalize(rotation[0]);
+    const glm::dvec3 z = glm::normalize(glm::cross(x, rotation[1]));
     return glm::dmat3(x, glm::cross(z, x), z);
 }
 
-std::vector<glm::dvec3> in_object_frame(const lighting::ShLight& light, const glm::dmat3& turn) {
-    std::vector<glm::dvec3> turned(light.coefficients.size());
-    math::ShRotation(glm::transpose(turn), light.bands).apply(std::span<const glm::dvec3>(light.coefficients), turned);
-    return turned;
+std::vector<glm::dvec3> in_object_frame(const lighting::ShLight& light, const glm::dmat3& rotation) {
+    std::vector<glm::dvec3> rotated(light.coefficients.size());
+    math::ShRotation(glm::transpose(rotation), light.bands)
+        .apply(std::span<const glm::dvec3>(light.coefficients), rotated);
+    return rotated;
 }
 
 /// The mesh's frames in the object's axes.
 SplitFrames object_frames(const scene::Mesh& mesh, double groove_rotation) {
     SplitFrames frames(mesh.normals.size());
-    const GrooveTurn turn(groove_rotation, 1.0);
+    const GrooveRotation rotation(groove_rotation, 1.0);
     for (std::size_t i = 0; i < mesh.normals.size(); ++i)
-        frames.set(i, turn(glm::vec3(mesh.tangents[i]), mesh.normals[i], mesh.tangents[i].w), mesh.normals[i]);
+        frames.set(i, rotation(glm::vec3(mesh.tangents[i]), mesh.normals[i], mesh.tangents[i].w), mesh.normals[i]);
     return frames;
 }
 
@@ -104,12 +105,12 @@ glm::dmat3 of_moderate_size(const glm::dmat3& matrix) {
 /// The mesh's frames in world axes. They may have any length and be skewed, as FrameArrays allow.
 SplitFrames world_frames(const scene::Mesh& mesh, const glm::dmat3& linear, double groove_rotation) {
     SplitFrames frames(mesh.normals.size());
-    const GrooveTurn turn(groove_rotation, glm::determinant(linear));
+    const GrooveRotation rotation(groove_rotation, glm::determinant(linear));
     const glm::mat3 for_tangents(of_moderate_size(linear));
     const glm::mat3 for_normals(of_moderate_size(glm::inverseTranspose(linear)));
     for (std::size_t i = 0; i < mesh.normals.size(); ++i) {
         const glm::vec3 n = for_normals * mesh.normals[i];
-        frames.set(i, turn(for_tangents * glm::vec3(mesh.tangents[i]), n, mesh.tangents[i].w), n);
+        frames.set(i, rotation(for_tangents * glm::vec3(mesh.tangents[i]), n, mesh.tangents[i].w), n);
     }
     return frames;
 }
@@ -119,8 +120,8 @@ template <typename Use>
 void in_vertex_frames(const lighting::ShLight& light, const scene::Mesh& mesh, const glm::mat4& object_to_world,
                       double groove_rotation, const Use& use) {
     const glm::dmat3 linear(object_to_world);
-    if (const auto turn = rigid_turn(linear))
-        use(in_object_frame(light, *turn), object_frames(mesh, groove_rotation).arrays());
+    if (const auto rotation = rigid_rotation(linear))
+        use(in_object_frame(light, *rotation), object_frames(mesh, groove_rotation).arrays());
     else
         use(light.coefficients, world_frames(mesh, linear, groove_rotation).arrays());
 }

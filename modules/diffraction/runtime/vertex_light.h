@@ -40,9 +40,10 @@ std::optional<glm::dvec3> flat_normal(const scene::Mesh& mesh);
 /// The tangent of a flat mesh with its bitangent's sign, in object axes, if all its tangents agree.
 std::optional<glm::vec4> common_tangent(const scene::Mesh& mesh);
 
-/// Of an object with that mesh. A skin may bend it.
+/// The layout of the grooves of an object with that mesh. A skinned one counts as curved, since its skin may bend it.
 GrooveLayout groove_layout(const scene::Mesh& mesh, bool skinned, bool has_groove_texture);
-/// Of what draws such an object: the stand-in of tables that need a flat surface, on others.
+/// The representation that draws an object of this layout: that of the tables or, where they need a flat surface and
+/// the object is curved, that of their stand-in.
 const RepresentationInfo& drawn_info(const BakedTables& tables, GrooveLayout layout);
 
 /// The vertices' part of an arc table, for many vertices: light_products() in every vertex's tangent frame.

@@ -119,8 +119,8 @@ vec3 background_weight() { return vec3(1.0); }  // over the transmitted side
 
 #include "engine/render/shaders/shading.glsl"
 
-// A cover dims all that lies under it, and reflects the rest like a mirror, on the side that is seen. It is passed twice
-// by light that order 0 mirrors.
+// A cover dims all that lies under it, and reflects the rest like a mirror, on the side that is seen. Light that order
+// 0 mirrors passes it twice.
 MaterialTerms layer_terms(vec3 diffracted_sum) {
 #ifdef COVER
     float passed = cover_transmittance(abs(dot(normalize(world_normal), to_eye())));

@@ -38,8 +38,8 @@ out vec4 arc_products[3 * SHOWN_LAYERS];
 out vec3 diffracted;  // working space
 #endif
 #ifdef BANDS
-// The light's SH, rotated to each vertex's tangent frame on the CPU. As texels, as llvmpipe reads each float of a storage
-// block vertex by vertex.
+// The light's SH, rotated to each vertex's tangent frame on the CPU. In a buffer texture, since llvmpipe reads each
+// float of a storage block vertex by vertex.
 const int COEFFICIENTS = BANDS * BANDS;
 TEXTURE_UNIT(12) uniform SAMPLER_BUFFER tangent_light;
 vec3 light_coefficient(int i) { return BUFFER_TEXEL(tangent_light, gl_VertexID * COEFFICIENTS + i).xyz; }

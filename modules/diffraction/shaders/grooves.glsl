@@ -1,5 +1,5 @@
 // The grooves at a pixel: the lit side, the cover over them, the tangent frame, the view in it, and what the pixel covers
-// (PHYSICS §11). Vertex stages, which define VERTEX_STAGE, need what stands above the frame alone.
+// (PHYSICS §11). Vertex stages define VERTEX_STAGE and use only what precedes world_grating.
 
 // The stage that shades the analytic lights: points and spots at the pixels; under SEPARATE_LIGHTS the probe's key lights
 // and directional lights at the pixels or, under LIGHTS_AT_VERTICES, at the vertices.
@@ -48,7 +48,7 @@ vec3 lit_view_direction(vec3 to_eye, mat3 axes) {
     return vec3(direction.xy, LIT_SIDE * direction.z);
 }
 
-// A transparent layer over the grooves: model/cover.h. The program defines COVER where there is one.
+// A transparent layer over the grooves: model/grating.h. The program defines COVER where there is one.
 #ifdef COVER
 uniform float cover_square;  // of its index of refraction
 
@@ -124,7 +124,7 @@ vec2 turned(GrooveView view, vec2 along) {
     return vec2(dot(view.turn, along), view.turn.x * along.y - view.turn.y * along.x);
 }
 
-// In (g, h, n).
+// A direction in the world, in (g, h, n).
 vec3 to_tangent(GrooveView view, vec3 s) {
     vec3 in_mesh = s * view.mesh.axes;
     return vec3(turned(view, in_mesh.xy), in_mesh.z);
@@ -201,7 +201,7 @@ vec4 mean_moments(vec2 uv, mat2 width) {
 #endif
 }
 
-// What is left of 1 after the moments' rounding counts as 1.
+// Relative error of the moments' rounding: a value this little below 1 counts as 1.
 const float MOMENT_ROUNDING = 1e-4;
 
 // The cosine and the sine, which is not negative, of half the angle of a vector.
@@ -240,8 +240,8 @@ GrooveView grooves_of(MeshView mesh, mat2x3 g_change, vec2 v_g_change, vec4 mome
     return GrooveView(turned, direction, pitch, g_change, v_g_change, mesh, turn, fade, spread, coverage);
 }
 
-// A pixel whose grooves vary is divided in parts: two distinct directions in it are no normal distribution. In fewer
-// parts where they vary little, as a texture that turns the grooves steadily does.
+// A pixel whose grooves vary is divided into parts, since two distinct directions in it are no normal distribution;
+// into fewer parts where they vary little, as with a texture that rotates the grooves steadily.
 const float VARYING = 1e-3;
 const float VARYING_MUCH = 1e-2;
 
@@ -254,10 +254,10 @@ int groove_parts(GrooveView view) {
 #endif
 }
 
-// The moments of one of `parts` of the pixel. Half the part's width: a trilinear look-up averages over about twice the
-// width that it is asked for.
+// The moments of one of `parts` of the pixel.
 #ifdef FINE_GROOVE_PARTS
-// A golden-ratio lattice. Each point is of one texel, as grooves between two texels' would be of neither.
+// At a point of a golden-ratio lattice. At level 0 it moves to the centre of its texel, as grooves interpolated between
+// two texels would be those of neither.
 vec4 part_moments(MeshView mesh, int parts, int part) {
     mat2 change = mesh.map_uv_change;
     vec2 at = vec2((float(part) + 0.5) / float(parts), fract(0.61803399 * float(part))) - 0.5;
@@ -269,6 +269,7 @@ vec4 part_moments(MeshView mesh, int parts, int part) {
     return textureLod(groove_map, uv, level);
 }
 #else
+// Asks for half the part's width: a trilinear look-up averages over about twice the width that it is asked for.
 vec4 part_moments(MeshView mesh, int parts, int part) {
     int bits = parts == 4 ? 1 : 2;  // of the part's column and of its row
     float side = parts == 4 ? 0.5 : 0.25;

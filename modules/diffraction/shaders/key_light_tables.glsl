@@ -4,7 +4,7 @@ TEXTURE_UNIT(14) uniform sampler2DArray lobe_table;  // a layer for each light
 uniform vec3 lobe_scale_bias;  // scale and offset from u to s; scale of the values, per unit of the largest flux
 uniform vec2 lobe_reach;       // the kernel is 0 where |u| differs from x by more than y
 
-// Position between the rows of the table, by 12 times the variance of u and its least one: LobeTable.
+// Position between the rows of the table, from 12 times the sum of u's variance and the least variance: LobeTable.
 const float LOBE_ROW_SCALE = 1.0 / float(ROWLAND_LOBE_TABLE_OCTAVES);
 const float LOBE_ROW_BIAS = LOBE_ROW_SCALE * (float(-ROWLAND_LOBE_TABLE_START) - 3.58496250072116);
 float lobe_row(float variance, float s_g) {
@@ -22,7 +22,8 @@ float lobe_flux(int light, float mean_n) {
 }
 
 // Adds a light. `axes`: columns g, h, n in the world; `direction`: toward the eye, in (g, h, n); `g_change`, `v_g_change`:
-// differences to the next pixels; `beyond`: how far from lobe_reach.x values of a light of one direction are 0.
+// differences to the next pixels; `beyond`: distance of |u| from lobe_reach.x from which on a light of one direction
+// has values of 0.
 void add_key_lobe(int light, mat3 axes, vec3 direction, mat2x3 g_change, vec2 v_g_change, float beyond,
                   inout vec3 sum) {
     vec3 mean = key_lobes[light].mean.xyz;

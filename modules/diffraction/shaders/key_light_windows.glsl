@@ -1,8 +1,9 @@
-// The probe's key lights on a grating without tables, as the CPU shades them: representations/direct/lobe_cosine.h.
+// The probe's key lights on a grating without tables, as the CPU shades them: representations/direct/lobe_table.h,
+// LobeCosine.
 
 // The light above the horizon, A(z) = integral of sin t e^(z (cos(t - t0) - 1)) over t in (0, pi), over
-// z = concentration cos psi0 cos psi. log2(A) less its decay below the horizon is a cubic in log2(1 + z), by value and
-// slope at z = 0 and at another z, and linear beyond.
+// z = concentration cos psi0 cos psi. log2(A) without its decay below the horizon is approximated by a cubic in
+// log2(1 + z) from value and slope at z = 0 and at another z, and linearly beyond.
 struct LightAbove {
     float decay;  // of log2(A), over z
     float at;     // log2(1 + z) there
@@ -145,7 +146,7 @@ vec3 key_lobe_radiance(KeyLobe lobe, GrooveView view) {
         float row = kernel_row(scale, square_width);
         for (int c = 0; c < 3; ++c) sums[c] += light * kernel_texel(scale, centre, from, row, float(c));
     }
-    // Of the windows and, for concentrations of 3 and more, of the lobe's density.
+    // The norm of the windows and, for concentrations of 3 and more, of the lobe's density.
     float norm = STEP / sqrt(1.0 - WITHIN) / (deviation * 6.28318530717959);
     vec2 along = spread_along_grooves(mean, lobe.moments);
     return 0.5 * norm * view.pitch * lobe_transmittance(mean.z, lobe.moments) *

@@ -26,8 +26,8 @@ struct KeyLobe {
     vec4 mean;       // xyz: of the directions; w: 5.2 deviations across
     vec4 variance;   // xy: 12 times that of u = s_g + v_g: factor of the mean s_g, squared; constant. zw: cosine and
                      // sine of the angle from the middle to the last window
-    vec4 height;     // by how much the mean of s_n above 0 exceeds that of s_n, times the largest flux: log2 as a
-                     // polynomial in the latter's distance from 0
+    vec4 height;     // by how much the mean of max(0, s_n) exceeds max(0, m), m being the mean of s_n, times the
+                     // largest flux: log2 as a cubic in |m|
 };
 ROWLAND_BLOCK(6, KeyLobeBlock) {
     vec4 key_lobe_count;  // x

@@ -1,5 +1,5 @@
-// Lights on a lattice: one look-up in its diffraction pattern for all orders, bake/pattern_picture.h and
-// representations/direct/pattern_light.h.
+// Lights on a lattice: one look-up in its diffraction pattern for all orders, bake/diffraction_pattern.h and
+// representations/direct/direct.h.
 
 TEXTURE_UNIT(10) uniform sampler2DArray pattern_picture;  // a layer for each colour
 uniform vec4 pattern_scale;  // from u to the picture; bias of the level; scale of the values; reach of |u|
@@ -12,10 +12,10 @@ vec3 pattern_texel(vec2 u, float level, float layer) {
     return textureLod(pattern_picture, vec3(u * pattern_scale.x + 0.5, layer), level).xyz;
 }
 
-// Of this variance of u.
+// The level for this variance of u.
 float pattern_level(float variance) { return 0.5 * log2(max(variance, 1e-30)) + pattern_scale.y; }
 
-// Of u over the pixel, from its differences to the pixels beside and below.
+// Variance of u over the pixel, from its differences to the pixels beside and below.
 float pixel_variance(vec2 right, vec2 down) { return max(dot(right, right), dot(down, down)) / 12.0; }
 
 #ifdef SMALL_LIGHTS

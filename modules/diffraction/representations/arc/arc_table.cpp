@@ -67,9 +67,9 @@ MatrixXd weighed(const MatrixXd& table, LightTerms terms, int bands) {
                 for (Eigen::Index k = 0; k < count; ++k)
                     mixed.col(k) += channel(from, c) * table.col(k * kTermColumns + from * 3 + o);
             }
-            const MatrixXd turned = mixed * light;
+            const MatrixXd scaled = mixed * light;
             for (Eigen::Index k = 0; k < count; ++k)
-                result.col(k * kTermColumns + Eigen::Index{3} * c + o) = turned.col(k);
+                result.col(k * kTermColumns + Eigen::Index{3} * c + o) = scaled.col(k);
         }
     return result;
 }

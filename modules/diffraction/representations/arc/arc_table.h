@@ -51,7 +51,7 @@ constexpr std::size_t weight_layers(int rank) {
 
 struct ArcSettings {
     int bands = 5;                   ///< n, 1 … 32
-    int rank = 8;                    ///< R ≥ 1; the full rank, which is exact, where R is larger
+    int rank = 8;                    ///< R ≥ 1, limited to the full rank, which is exact
     std::optional<ViewGrid> grid{};  ///< none: default_view_grid()
     std::optional<PitchAxis> pitch{};
     Storage storage = Storage::Half;
@@ -70,8 +70,8 @@ ArcTable bake(const Grating& grating, const ArcSettings& settings);
 /// light in the tangent frame.
 std::vector<glm::dvec3> light_products(const ArcTable& table, std::span<const glm::dvec3> light_terms);
 
-/// The part of a pixel: XYZ = Σ_r w_r p_r; 0 for v_n ≤ 0. The pitch factor is for tables with a pitch axis, and clamped
-/// to its ends.
+/// The part of a pixel: XYZ = Σ_r w_r p_r; 0 for v_n ≤ 0. Only tables with a pitch axis use the pitch factor, clamped
+/// to the axis's ends.
 glm::dvec3 shade(const ArcTable& table, std::span<const glm::dvec3> products, const glm::dvec3& view,
                  double pitch_factor = 1.0);
 

@@ -22,7 +22,7 @@ using std::numbers::pi;
 struct LightCells {
     int side;  ///< of a face
 
-    /// A row beyond either edge, for texels between the edge and the last cell's middle.
+    /// One of them lies beyond either edge, for texels between the edge and the last cell's middle.
     int rows() const { return side + 2; }
     double angle() const { return 0.5 * pi / side; }
     std::size_t index(int face, int row, int column) const {
@@ -54,7 +54,7 @@ std::size_t LightCells::index_of(const glm::ivec3& position) const {
     return index(2 * axis + (position[axis] < 0 ? 1 : 0), cell(2), cell(1));
 }
 
-/// A face for each sign of each axis.
+/// The cube's face that a direction meets: twice its axis, plus 1 on the negative side.
 int light_face(const glm::dvec3& s) {
     int axis = 0;
     for (int i = 1; i < 3; ++i)

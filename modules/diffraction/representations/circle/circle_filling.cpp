@@ -20,11 +20,11 @@ namespace rowland::diffraction {
 
 namespace {
 
-/// Cells of a cube's face that the light of the remainder is divided among: its nodes are further apart. 40 would lose
-/// a fifth of the accuracy under a probe with one small lamp.
+/// Cells along a side of a cube's face for the light of the remainder: fewer than kCircleLightCells, as the remainder's
+/// nodes are farther apart. 40 would lose a fifth of the accuracy under a probe with one small lamp.
 constexpr int kRemainderLightCells = 56;
 
-/// The multiples of the angle that a grid's moments have: `first`, first + step, …; of 0 the sine is left out.
+/// The multiples of the angle that a grid's moments have: `first`, first + step, …; 0 has no sine.
 struct Multiples {
     int first;
     int step;
@@ -34,7 +34,7 @@ struct Multiples {
 };
 constexpr Multiples kOfTerms{.first = 0, .step = 1, .terms = kCircleTerms};
 constexpr Multiples kOfRemainder{.first = 4, .step = 2, .terms = 10};
-constexpr Multiples kOfCoveredRemainder{.first = 3, .step = 1, .terms = 12};  // where the series converges sooner
+constexpr Multiples kOfCoveredRemainder{.first = 3, .step = 1, .terms = 12};  // its series converges sooner
 static_assert(kOfRemainder.first + (kOfRemainder.terms / 2 - 1) * kOfRemainder.step < kCircleMultiples);
 
 /// The clamped cosine's coefficient for each cell of a and each term.
@@ -56,9 +56,9 @@ std::vector<float> unchanged_terms() {
     return rows;
 }
 
-/// Values on the axis of the angle as functions of the terms of the remainder: row j holds function j's coefficients of
-/// the terms. Least squares of their linear interpolation over the angle: a tridiagonal cyclic matrix; three
-/// Gauss-Seidel sweeps give a digit.
+/// The remainder's functions from its terms: row j holds function j's coefficients of the terms. Linear interpolation
+/// between the functions fits the series in the least-squares sense. The matrix is tridiagonal and cyclic; three
+/// Gauss–Seidel sweeps give a digit.
 std::vector<float> functions_of_terms(const Multiples& multiples, int angles, double period) {
     constexpr int kStepsPerAngle = 64;
     constexpr int kSweeps = 40;
@@ -158,7 +158,7 @@ void add_moments(std::span<const ImageLight> light, const CircleFrame& frame, in
     }
 }
 
-/// The functions of an image's node from image 0's moments: those of an image are at other angles.
+/// The rows of `functions` for an image's node, in terms of image 0's moments: the angles differ by angle_image().
 std::vector<float> functions_of_image(const Multiples& multiples, const std::vector<float>& functions,
                                       std::size_t image) {
     const AngleImage angle = angle_image(image);
@@ -207,14 +207,14 @@ class GridFilling {
     static constexpr std::size_t kTerms = kMultiples.terms;
     static constexpr std::size_t kFours = kTerms * kCircleImages / 4;
 
-    /// No look-up reaches the corners.
+    /// Whether look-ups reach a point: none reaches the corners.
     bool is_read(const glm::dvec2& p) const { return glm::length(p) <= 1.0 + 3.0 / (grid_.side * grid_.scale()); }
 
     glm::dvec2 point_of(const glm::ivec2& node) const {
         return ((glm::dvec2(node) + 0.5) / static_cast<double>(grid_.side) - 0.5) / grid_.scale();
     }
 
-    /// Column and row of the nodes whose images are all nodes.
+    /// Column and row of nodes that, with their images, are all nodes of a chart.
     std::vector<glm::ivec2> first_nodes() const {
         std::vector<glm::ivec2> nodes;
         for (int row = grid_.side / 2; row < grid_.side; ++row)

@@ -20,10 +20,10 @@ glm::dvec3 mirrored(const glm::dvec3& v, int chart) {
 
 CircleFrame frame_at(const glm::dvec3& g, int chart) {
     const glm::dvec3 up = mirrored(g, chart);
-    const glm::dvec3 turn = up + glm::dvec3(0.0, 1.0, 0.0);
+    const glm::dvec3 bisector = up + glm::dvec3(0.0, 1.0, 0.0);
     const double scale = 1.0 / (1.0 + up.y);
-    return {g, mirrored(glm::dvec3(1.0, 0.0, 0.0) - up.x * scale * turn, chart),
-            mirrored(glm::dvec3(0.0, 0.0, 1.0) - up.z * scale * turn, chart)};
+    return {g, mirrored(glm::dvec3(1.0, 0.0, 0.0) - up.x * scale * bisector, chart),
+            mirrored(glm::dvec3(0.0, 0.0, 1.0) - up.z * scale * bisector, chart)};
 }
 
 glm::dvec2 chart_point(const glm::dvec3& g, int chart) {
@@ -49,7 +49,7 @@ namespace {
 
 using std::numbers::pi;
 
-/// The texels and weights of a look-up.
+/// Where a map is looked up.
 struct CirclePosition {
     int chart;
     glm::dvec2 p;
@@ -126,7 +126,7 @@ std::array<double, kCircleMultiples> clamped_cosine(const std::optional<Cover>& 
 
 double circle_turn(double c, double s) {
     const double y = (std::abs(c) - std::abs(s)) / (std::abs(c) + std::abs(s));
-    const double from_axis = 0.125 + 0.125 * y * (1.2 - 0.2 * y * y);  // the axis where c is 0
+    const double from_axis = 0.125 + 0.125 * y * (1.2 - 0.2 * y * y);  // distance from the axis c = 0
     const double turn = c < 0.0 ? 0.25 + from_axis : 0.25 - from_axis;
     return s < 0.0 ? -turn : turn;
 }

@@ -31,8 +31,8 @@ CircleFrame frame_at(const glm::dvec3& g, int chart);
 glm::dvec2 chart_point(const glm::dvec3& g, int chart);
 glm::dvec3 grating_vector(const glm::dvec2& p, int chart);
 
-/// The symmetries of a cube that keep +Y, which the nodes and the light of circle maps have. s_g of a node and a
-/// direction is that of their images, and so is the angle but for angle_image(): both are computed once for all images.
+/// Number of the symmetries of a cube that keep +Y. The nodes and the light cells of circle maps have them: images of a
+/// node and a direction have the same s_g and, but for angle_image(), the same angle, so both are computed only once.
 inline constexpr std::size_t kCircleImages = 8;
 
 /// Image 0 is the vector itself; 4 exchanges x and z, then 1 reverses x and 2 reverses z.
@@ -126,8 +126,9 @@ double circle_turn(double c, double s);
 /// The number of charts of a map under this kernel.
 int chart_count(const KernelTable& kernel);
 
-/// Fills the map from texels (without key lights, which `direct` adds). Uses all cores; the result does not depend on
-/// their number. `zero_order_xyz`: as of ColourKernel. After a stop request it returns early with an unusable map.
+/// Fills the map from texels (without key lights, which are shaded one by one). Uses all cores; the result does not
+/// depend on their number. `zero_order_xyz`: as of ColourKernel. After a stop request it returns early with an unusable
+/// map.
 CircleMap fill_circle_map(const lighting::LightSamples& texels, const KernelTable& kernel, double pitch_nm,
                           const CircleMapSize& size = {}, const glm::dmat3& zero_order_xyz = glm::dmat3(0.0),
                           const std::optional<Cover>& cover = std::nullopt, const std::stop_token& stop = {});

@@ -54,9 +54,9 @@ LightSpot clamp_at_horizon(const Spread& spread) {
     return spot;
 }
 
-/// A lobe is summed in slices: at least so many, and none wider than this in x, so that the kernel's width hides the
-/// steps.
+/// Least number of slices in which a lobe is summed.
 constexpr int kFewestSlices = 54;
+/// Width of the slices in x where a lobe has more of them: less than that of the kernel's features.
 constexpr double kSlice_nm = 12.0;
 
 /// D_h convolved with a light's normal distribution along the grooves.
@@ -91,7 +91,7 @@ glm::dmat3 mean_over(const Kernel& kernel, const DirectMaterial& material, doubl
     return mean;
 }
 
-/// Light between two values of s_g: its mean over a pixel's u, with order 0.
+/// Mean of d k(d u), with order 0, for light within centre_g ± half_g and over the pixel.
 template <typename Kernel>
 glm::dmat3 seen_over(const Kernel& kernel, const DirectMaterial& material, const DirectView& view, double centre_g,
                      double half_g) {
@@ -99,7 +99,7 @@ glm::dmat3 seen_over(const Kernel& kernel, const DirectMaterial& material, const
     return mean_over(kernel, material, centre_g + view.v_g, std::max(half, kNarrowest), view.v_g);
 }
 
-/// The smoothed kernel holds the mean.
+/// The same from a smoothed kernel, which holds the mean, but without order 0.
 glm::dmat3 seen_over(const BlurredKernel& kernel, const DirectMaterial& material, const DirectView& view,
                      double centre_g, double half_g) {
     const double d = material.pitch_nm;
@@ -209,9 +209,9 @@ glm::dvec3 direct_radiance(const KernelTable& kernel, const DirectMaterial& mate
 namespace {
 
 constexpr int kSmallestPicture = 128;
-/// Of all lights' finest levels.
+/// Limit of the texels of all lights' finest levels together.
 constexpr std::size_t kMostTexels = std::size_t{1} << 22;
-/// Of the finest level's blur: finer texels change nothing that is measured against the reference.
+/// Texels per standard deviation of the finest level's blur. More do not reduce the error against the reference.
 constexpr double kTexelsPerDeviation = 1.6;
 
 int picture_size(double half_width, std::span<const lighting::KeyLight> lights) {
@@ -267,7 +267,7 @@ glm::dvec3 pattern_radiance(const LightPicture& picture, const lighting::KeyLigh
     const double across = moments.variance_across + pixel;
     const double shown =
         std::max(across + (moments.variance_along - moments.variance_across) * steepness, picture.variance);
-    // Gauss–Hermite's three nodes.
+    // Three Gauss–Hermite nodes across the direction toward the light.
     const double apart = std::sqrt(3.0 * std::max(across - shown, 0.0) / std::max(steepness, 1e-12));
     const glm::dvec2 tap = apart * glm::dvec2(-toward.y, toward.x);
     const glm::dvec2 u = moments.mean * toward + v_p;

@@ -39,10 +39,10 @@ struct LightSpot {
     double concentration = 0.0;  ///< of a lobe; 0: a disc
 };
 
-/// A disc, as one box of its variance in s_g.
+/// The moments of a disc. direct_radiance() replaces it by a box of the same variance in s_g.
 LightSpot light_spot(const DirectLight& light, const glm::dmat3& world_to_tangent);
 
-/// A von Mises–Fisher lobe.
+/// The moments of a von Mises–Fisher lobe.
 LightSpot light_spot(const lighting::KeyLight& light, const glm::dmat3& world_to_tangent);
 
 /// The view of a point and the pixel's extent.
@@ -78,8 +78,8 @@ glm::dvec3 direct_radiance(const KernelTable& kernel, const DirectMaterial& mate
 glm::dvec3 direct_radiance(const ColourKernel& kernel, const DirectMaterial& material, const LightSpot& spot,
                            const DirectView& view);
 
-/// The same from a smoothed kernel: one look-up for a box or a slice, which counts as a normal distribution of its
-/// variance, but as no narrower than a column. Without order 0.
+/// The same from a smoothed kernel, without order 0: one look-up for a box or a slice, which counts as a normal
+/// distribution of its variance, but no narrower than a column of the kernel.
 glm::dvec3 direct_radiance(const BlurredKernel& kernel, const DirectMaterial& material, const LightSpot& spot,
                            const DirectView& view);
 
@@ -94,27 +94,28 @@ glm::dvec3 direct_radiance(const KernelTable& kernel, const DirectMaterial& mate
 struct PatternLight {
     glm::dvec3 irradiance{0.0};  ///< flux times the mean of s_n⁺, and a cover's T(s_n)
     glm::dvec2 centre{0.0};      ///< mean of (s_g, s_h)
-    double variance = 0.0;       ///< of s_g and s_h, their mean
+    double variance = 0.0;       ///< mean of the variances of s_g and s_h
 };
 PatternLight pattern_light(const DirectLight& light, const std::optional<Cover>& cover,
                            const glm::dmat3& world_to_tangent);
 
-/// XYZ = P̄(u) · irradiance, PHYSICS (13.5): one look-up for all orders. `footprint`: half the extent of the pixel in u.
-/// Without T(v_n).
+/// XYZ = P̄(u) · irradiance, PHYSICS (13.5), without T(v_n): one look-up for all orders. `v_p`: (v_g, v_h); `footprint`:
+/// half the extent of the pixel in u.
 glm::dvec3 pattern_radiance(const PatternPicture& picture, const PatternLight& light, const glm::dvec2& v_p,
                             double footprint = 0.0);
 
-/// Variance of the blur of a key light's finest level, as a fraction of the light's variance: the narrowest that the
-/// light has in the plane up to 45° from the normal. The next level has the light's whole variance.
+/// Variance of the blur of a key light's finest level, as a fraction of the light's variance: the least variance in the
+/// plane of a light up to 45° from the normal. The next level has the light's whole variance.
 inline constexpr double kPictureVariance = 0.5;
 
-/// A picture for each key light, of one size. `space`: of the values, from XYZ. A texture of 45 MB or less in halves.
+/// A picture for each key light, all of one size: as a texture of half floats, 45 MB or less. `space`: the matrix from
+/// XYZ to the colour space of the values.
 std::vector<LightPicture> key_light_pictures(const Grating& grating, const colour::LightSpectra& spectra,
                                              std::span<const lighting::KeyLight> lights,
                                              const glm::dmat3& space = glm::dmat3(1.0));
 
-/// XYZ of a key light from its picture: three look-ups, as it is an ellipse in the plane, PHYSICS (13.6). Without
-/// T(v_n).
+/// XYZ of a key light from its picture, PHYSICS (13.6), without T(v_n): three look-ups, since the light is an ellipse
+/// in the plane of the surface.
 glm::dvec3 pattern_radiance(const LightPicture& picture, const lighting::KeyLight& light,
                             const std::optional<Cover>& cover, const glm::dmat3& world_to_tangent,
                             const glm::dvec2& v_p, double footprint = 0.0);

@@ -18,10 +18,10 @@ namespace {
 
 using std::numbers::pi;
 
-/// From this z on there is a closed form.
+/// The least z of light_above_narrow().
 constexpr double kClosedForm = 3.0;
 
-/// In deviations.
+/// From the middle of a lobe to either end, in deviations.
 constexpr double kLobeReach = 4.5;
 
 /// ∫₀^π sin t e^(z (cos(t − t₀) − 1)) dt for z ≥ 3, exact in the tails also. `sine` and `cosine`: of t₀, which lies in
@@ -103,7 +103,7 @@ std::vector<LobeSlice> lobe_slices(const LobeCosine& lobe, int count) {
 
 std::vector<LobeWindow> lobe_windows(const LobeCosine& lobe) {
     constexpr int kSlices = 48;
-    constexpr double kBetween = 0.7;  // of the variance
+    constexpr double kBetween = 0.7;  // fraction of the variance that lies between the windows
     constexpr std::array<double, 7> kNodes{-3.750439717725742, -2.366759410734541, -1.154405394739968, 0.0,
                                            1.154405394739968,  2.366759410734541,  3.750439717725742};
     constexpr std::array<double, 7> kWeights{5.48268855972218e-4, 3.07571239675865e-2, 2.40123178605013e-1,

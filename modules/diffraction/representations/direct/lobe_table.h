@@ -11,8 +11,8 @@
 
 namespace rowland::diffraction {
 
-/// The light of a von Mises–Fisher lobe over ψ, s_g = sin ψ: the mean of s_n⁺ over the lobe is its integral. Exact
-/// where the horizon cuts the lobe and where the lobe surrounds g.
+/// The light of a von Mises–Fisher lobe as a density over ψ, with s_g = sin ψ: its integral is the mean of s_n⁺ over
+/// the lobe. Also exact where the horizon cuts the lobe and where the lobe surrounds g.
 class LobeCosine {
  public:
     /// `axis`: the lobe's direction in the tangent frame, unit.
@@ -49,7 +49,7 @@ std::vector<LobeSlice> lobe_slices(const LobeCosine& lobe, int count);
 
 /// A normal distribution of light in s_g.
 struct LobeWindow {
-    double cosine = 0.0;
+    double cosine = 0.0;  ///< its part of the mean of s_n⁺
     double centre_g = 0.0;
     double deviation_g = 0.0;
 };
@@ -80,16 +80,16 @@ inline constexpr double kLeastLobeVariance = 1.0 / (1 << -kLobeTableStart);
 /// Octaves from the least variance to 1/16, on either side of n.
 inline constexpr int kLobeTableOctaves = 2 * 14;
 
-/// Mean of s_n⁺ over a lobe of concentration κ, whose s_n counts as normal; s_n is that of its direction.
+/// Mean of s_n⁺ over a lobe of concentration κ, with s_n taken as normally distributed. `s_n`: of the lobe's direction.
 double lobe_height(double concentration, double s_n);
 
-/// lobe_height() − max(0, m) over |m|, m being the mean of s_n: log₂ as a polynomial, constant term first. Within 3e-4
-/// of the lobe's deviation for κ ≥ 40.
+/// Coefficients, constant term first, of a cubic in |m| that approximates log₂(lobe_height() − max(0, m)), m being the
+/// mean of s_n. The error of the height is at most 3e-4 of the lobe's deviation for κ ≥ 40.
 glm::dvec4 lobe_height_fit(double concentration);
 
-/// The table of a key light, from the radiance of the raised lobe (LobeCosine) over lobe_height(). It deviates from
-/// direct_radiance() where the horizon cuts the lobe. Nodes are those that interpolate best over x
-/// (kBestLinear).
+/// The table of a key light: the radiance of the lobe rotated around g into the plane of g and n (LobeCosine), divided
+/// by lobe_height(). It deviates from direct_radiance() where the horizon cuts the lobe. Values are optimised for
+/// linear interpolation over x (kBestLinear).
 LobeTable make_lobe_table(const BlurredKernel& kernel, const lighting::KeyLight& light, int columns);
 
 /// CPU reference of key_light_tables.glsl: XYZ of a key light from its table. `world_to_tangent`: rows g, h, n.

@@ -30,7 +30,7 @@ constexpr int kMargin = 1;
 constexpr float kBlur = 13.0F / 48.0F;
 /// Steps of sharpening along an axis of views: more restore finer detail.
 constexpr int kSteps = 3;
-/// The fraction of its light that a node which is darker than its neighbours may give to one of them in a step. Twice
+/// In a step, a node that is darker than its neighbours gives at most this fraction of its light to one of them. Twice
 /// as much amplifies ripples of the light until they show as stripes.
 constexpr float kMayDarken = 0.05F;
 
@@ -43,8 +43,8 @@ std::array<float, 4> spline_weights(float t) {
     return {first, second, 1.0F - first - second - last, last};
 }
 
-/// Factors of the frequencies of one axis that take the light's samples to the bilinear radiance between them: a
-/// texel's hat, whose variance is a sixth of the square of its side, as steps at random between neighbouring nodes.
+/// Factors of the frequencies of one axis that blur the light's samples to the bilinear radiance between them: a
+/// texel's hat function, whose variance is a sixth of its squared side, as a random walk between neighbouring nodes.
 std::vector<float> between_samples(std::size_t samples, std::size_t size, double step) {
     const double variance = 4.0 * std::numbers::pi / (6.0 * static_cast<double>(std::max<std::size_t>(samples, 1)));
     std::vector<float> factors;
@@ -55,8 +55,8 @@ std::vector<float> between_samples(std::size_t samples, std::size_t size, double
     return factors;
 }
 
-/// What one pair of azimuths is computed in: complex numbers, whose real parts belong to the first azimuth and whose
-/// imaginary parts to the second, as the pattern is real. Rows along h, one for each node along g.
+/// A grid of complex numbers in which two azimuths are computed at once: as the pattern is real, the real parts belong
+/// to the first azimuth and the imaginary parts to the second. Rows along h, one for each node along g.
 class AzimuthPair {
  public:
     /// `samples`: of the light, over the sphere.
@@ -65,7 +65,7 @@ class AzimuthPair {
     /// Adds the light of the disc, turned so that g is the first axis. `part` 0: the pair's first azimuth.
     void add_light(const LightDisc& disc, double azimuth, int part);
     void correlate();
-    /// Component by component at a view.
+    /// XYZ of one of the azimuths at a view.
     glm::vec3 value(int part, int view_g, int view_h) const;
 
  private:
@@ -78,7 +78,7 @@ class AzimuthPair {
     FourierTransform along_h_;
     std::vector<float> between_g_;
     std::vector<float> between_h_;
-    std::size_t pitch_;  ///< floats of a row; not a power of two, so that a column's floats are not in one cache set
+    std::size_t row_stride_;  ///< in floats; not a power of two, so that a column's floats are not in one cache set
     std::array<std::vector<float>, 2> parts_;   ///< real and imaginary: views.g + 2 kMargin rows
     std::array<std::vector<float>, 2> column_;  ///< a column, and room for a transform's work
     std::array<std::vector<float>, 2> light_;   ///< a column of the light alone, for patterns of several terms
@@ -91,9 +91,10 @@ AzimuthPair::AzimuthPair(const LobeSpectrum& spectrum, std::size_t samples)
       along_h_(spectrum.size_h()),
       between_g_(between_samples(samples, spectrum.size_g(), spectrum.views().step_g())),
       between_h_(between_samples(samples, spectrum.size_h(), spectrum.views().step_h())),
-      pitch_(kLightLanes * (spectrum.size_h() + 4)) {
+      row_stride_(kLightLanes * (spectrum.size_h() + 4)) {
     const std::size_t longest = kLightLanes * std::max(spectrum.size_g(), spectrum.size_h());
-    for (auto& part : parts_) part.assign(static_cast<std::size_t>(spectrum.views().g + 2 * kMargin) * pitch_, 0.0F);
+    for (auto& part : parts_)
+        part.assign(static_cast<std::size_t>(spectrum.views().g + 2 * kMargin) * row_stride_, 0.0F);
     for (auto& part : column_) part.assign(kLightLanes * spectrum.size_g(), 0.0F);
     for (auto& part : work_) part.assign(longest, 0.0F);
 }
@@ -130,7 +131,7 @@ void AzimuthPair::add_light(const LightDisc& disc, double azimuth, int part) {
             // Node 0 of u is v = −s: the light's last node along h comes first.
             const int first_h = low_h - kMargin - (views.h - 1) + size_h;
             for (int i = 0; i < 4; ++i) {
-                float* to = grid + static_cast<std::size_t>(low_g + i) * pitch_;
+                float* to = grid + static_cast<std::size_t>(low_g + i) * row_stride_;
                 for (int j = 0; j < 4; ++j) {
                     const float weight =
                         weights_g[static_cast<std::size_t>(i)] * weights_h[static_cast<std::size_t>(j)];
@@ -144,7 +145,7 @@ void AzimuthPair::add_light(const LightDisc& disc, double azimuth, int part) {
 }
 
 AzimuthPair::Parts AzimuthPair::row(int view_g) {
-    const std::size_t begin = static_cast<std::size_t>(view_g) * pitch_;
+    const std::size_t begin = static_cast<std::size_t>(view_g) * row_stride_;
     const std::size_t count = kLightLanes * along_h_.size();
     return {std::span(parts_[0]).subspan(begin, count), std::span(parts_[1]).subspan(begin, count)};
 }
@@ -179,7 +180,7 @@ void AzimuthPair::transform_columns() {
             const float* from = parts_[part].data() + kLightLanes * h;
             for (int i = 0; i < rows; ++i) {
                 const int node = (i - kMargin - (views - 1) + size) % size;
-                std::copy_n(from + static_cast<std::size_t>(i) * pitch_, kLightLanes,
+                std::copy_n(from + static_cast<std::size_t>(i) * row_stride_, kLightLanes,
                             to + kLightLanes * static_cast<std::size_t>(node));
             }
         }
@@ -197,7 +198,7 @@ void AzimuthPair::transform_columns() {
                 const float factor = spectrum_.factor_at(term, i);
                 for (std::size_t part = 0; part < 2; ++part) {
                     const float* const from = column_[part].data() + kLightLanes * static_cast<std::size_t>(i);
-                    float* const to = parts_[part].data() + static_cast<std::size_t>(i) * pitch_ + kLightLanes * h;
+                    float* const to = parts_[part].data() + static_cast<std::size_t>(i) * row_stride_ + kLightLanes * h;
                     for (std::size_t lane = 0; lane < kLightLanes; ++lane)
                         to[lane] = (term == 0 ? 0.0F : to[lane]) + factor * from[lane];
                 }
@@ -217,12 +218,12 @@ void AzimuthPair::correlate() {
 }
 
 glm::vec3 AzimuthPair::value(int part, int view_g, int view_h) const {
-    const float* at = parts_[static_cast<std::size_t>(part)].data() + static_cast<std::size_t>(view_g) * pitch_ +
+    const float* at = parts_[static_cast<std::size_t>(part)].data() + static_cast<std::size_t>(view_g) * row_stride_ +
                       kLightLanes * static_cast<std::size_t>(view_h);
     return {at[0], at[1], at[2]};
 }
 
-/// The light that moves up a difference of two neighbours, `fraction` of it. The darker one keeps as much as its own
+/// The light that moves from `low` to `high`: `fraction` of their difference. The darker one keeps as much as its own
 /// darker neighbour has, or nearly. `before`, `after`: the differences on both sides.
 glm::vec3 light_moved(float fraction, const glm::vec3& low, const glm::vec3& high, const glm::vec3& before,
                       const glm::vec3& after) {

@@ -20,17 +20,18 @@ struct LobeMapSize {
 
 /// The size of the map that is shown while a larger one is filled: it is filled within 40 ms on two cores.
 inline constexpr LobeMapSize kCoarseLobeMap{.azimuths = 64, .views = {.g = 64, .h = 32}};
-/// That size for an object whose g is the same everywhere.
+/// The same for an object whose g is the same everywhere.
 inline constexpr LobeMapSize kCoarseLobeSlice{.azimuths = 1, .views = {.g = 128, .h = 128}};
 
-/// The map for an object whose g is the same everywhere, in place of one of `size`: of twice as many views, 384 at
-/// most. More would show the probe's texels. 256 × 256 take 0.5 MB, and 25 MB for their LobeSpectrum.
+/// The size of the map that replaces one of `size` for an object whose g is the same everywhere: twice as many views
+/// along each axis, 384 at most. More would show the probe's texels. 256 × 256 take 0.5 MB, and 25 MB for their
+/// LobeSpectrum.
 constexpr LobeMapSize one_azimuth(const LobeMapSize& size) {
     constexpr int kMost = 384;
     return {.azimuths = 1, .views = {.g = std::min(2 * size.views.g, kMost), .h = std::min(2 * size.views.h, kMost)}};
 }
 
-/// A pattern that is even needs the half turn alone, both ends included.
+/// Slices of a map. An even pattern needs only a half turn, both ends included.
 constexpr int slices(const LobeMapSize& size, bool half_turn) {
     return half_turn ? size.azimuths / 2 + 1 : size.azimuths;
 }
@@ -41,8 +42,8 @@ constexpr int slices(const LobeMapSize& size, bool half_turn) {
 ///   v_h: the same in t
 ///   azimuth φ: g = cos φ e1 + sin φ e2, slice i holds φ = 2π i/azimuths. A pattern with P(−u) = P(u) needs the half
 ///     turn alone, as (φ + π, −v_g, −v_h) is then equal to (φ, v_g, v_h): azimuths/2 + 1 slices, GL_CLAMP_TO_EDGE in r.
-///     Others have `azimuths` slices, GL_REPEAT in r. One azimuth is one slice, whose g is e2: a quarter of a turn,
-///     which rounding keeps in either half.
+///     Others have `azimuths` slices, GL_REPEAT in r. A map of one azimuth is one slice, whose g is e2: at φ = π/2 no
+///     rounding reaches the other half turn.
 ///   values are optimised for linear interpolation (kBestLinear), not the radiance at the nodes
 struct LobeMap {
     LobeMapSize size;
@@ -51,7 +52,7 @@ struct LobeMap {
     std::vector<glm::vec3> values;  ///< XYZ, or what in_space() made of it: [(slice · views.h + j_h) · views.g + j_g]
 };
 
-/// The map in another colour space than XYZ. Filling relies on XYZ: of no light is a component negative.
+/// The map in another colour space. Maps are filled in XYZ, where no light has a negative component.
 LobeMap in_space(LobeMap map, const glm::dmat3& xyz_to_space);
 
 /// Fills a map: correlates the light seen from straight above, turned to each azimuth, with the pattern, PHYSICS (6.2),
@@ -60,8 +61,8 @@ LobeMap in_space(LobeMap map, const glm::dmat3& xyz_to_space);
 LobeMap fill_lobe_map(const lighting::LightSamples& texels, const LobeSpectrum& spectrum, const glm::dvec3& normal,
                       int azimuths, const std::stop_token& stop = {});
 
-/// sample(fill_lobe_map(...), point) for few points: fills the slices that a point sees. For one thread. The spectrum
-/// outlives it.
+/// sample(fill_lobe_map(...), point) for few points: fills the slices that a point sees. For one thread. `spectrum`
+/// must outlive the result.
 std::function<glm::dvec3(const ShadingPoint&)> lobe_map_of_points(const lighting::LightSamples& texels,
                                                                   const LobeSpectrum& spectrum,
                                                                   const glm::dvec3& normal, int azimuths);

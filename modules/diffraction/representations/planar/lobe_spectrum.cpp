@@ -33,7 +33,8 @@ std::vector<double> wavelengths_of(const GrooveLobe& lobe) {
     return wavelengths_nm;
 }
 
-/// D_h at one wavelength, each part of it divided between two nodes of the grid, as its transform: real, as it is even.
+/// The Fourier transform of D_h at one wavelength, each sample divided between two nodes of the grid. Real, as D_h is
+/// even.
 std::vector<double> transformed_lobe(const GrooveLobe& lobe, double wavelength_nm, double step, std::size_t size) {
     const LobeDensity density(lobe, wavelength_nm);
     std::vector<double> nodes(size, 0.0);
@@ -58,14 +59,14 @@ std::vector<double> transformed_lobe(const GrooveLobe& lobe, double wavelength_n
     return transform;
 }
 
-/// The pattern's nodes near one of the lobe's wavelengths along g: as their transform, X, Y, Z of three columns a
-/// frequency.
+/// The transform along g of the pattern's nodes near one of the lobe's wavelengths: for each frequency X, Y, Z of three
+/// columns.
 struct TransformedOrders {
     std::array<std::vector<float>, 3> real;  ///< by column, kLanes floats a frequency
     std::array<std::vector<float>, 3> imaginary;
 };
 
-/// The fraction of a wavelength that belongs to entry `r` of an ascending list.
+/// The fraction of a wavelength that belongs to entry `r` of an ascending, equidistant list.
 double hat(const std::vector<double>& wavelengths_nm, std::size_t r, double wavelength_nm) {
     if (wavelengths_nm.size() == 1) return 1.0;
     const double spacing = wavelengths_nm[1] - wavelengths_nm[0];
@@ -105,7 +106,7 @@ TransformedOrders transformed_orders(const DiffractionPattern& pattern, std::siz
     std::vector<float> work_imaginary(kLanes * size);
     for (std::size_t c = 0; c < 3; ++c) {
         transform({orders.real[c], orders.imaginary[c]}, {work_real, work_imaginary});
-        for (float& value : orders.imaginary[c]) value = -value;  // of real nodes: the other sign of the exponent
+        for (float& value : orders.imaginary[c]) value = -value;  // conjugate, as for TransformedPoints
     }
     return orders;
 }

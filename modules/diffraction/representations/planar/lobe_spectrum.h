@@ -50,7 +50,7 @@ class LobeSpectrum {
     void fill_lobe(const DiffractionPattern& pattern);
     /// A pattern without a lobe.
     void fill_points(const DiffractionPattern& pattern);
-    /// The factor of the matrices.
+    /// The scale of all matrices: of the inverse transform, the grid's steps and LightDisc's ½.
     double factor() const;
     /// Rows of matrices of a term.
     std::size_t rows() const { return points_ ? size_h_ : size_h_ / 2 + 1; }

@@ -47,7 +47,8 @@ std::optional<PlanarLobe> lobe_of(const PlanarSettings& settings) {
                                      0.25 * std::min(finest.step_g(), finest.step_h()))};
 }
 
-/// `shader_of(normal, g)` shades an object; the last one's is kept. `one_azimuth`: another g is another object.
+/// Shades each object by shader_of(normal, g) and keeps the shader of the last one. `one_azimuth`: points of another g
+/// belong to another object.
 template <typename ShaderOf>
 PointShader by_object(bool one_azimuth, ShaderOf shader_of) {
     struct Object {

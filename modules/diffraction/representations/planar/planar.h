@@ -24,7 +24,7 @@ struct PlanarSettings {
     void set_illuminant(const colour::Illuminant& white) { stand_in.illuminant = white; }
 };
 
-/// The material's part of a map of a lobe that is not flat.
+/// The material's part of a map of a lattice or a lobe that is not flat.
 struct PlanarLobe {
     LobeMapSize size;
     DiffractionPattern pattern;

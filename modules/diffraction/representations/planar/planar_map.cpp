@@ -187,9 +187,9 @@ class PlanarMapFill {
           light_(light_on_disc(texels, plane_axes(normal), cover, kernels_[0].cells()), step_),
           profiles_(static_cast<std::size_t>(size.azimuths) / 2) {}
 
-    /// A rotation by π mirrors A: half of the projections suffice.
+    /// Number of projections: half the azimuths, since a rotation by π mirrors A.
     std::size_t projections() const { return profiles_.size(); }
-    /// Computes one of projections(), unless it is known.
+    /// Computes the projection of an azimuth, unless it is known.
     void project(std::size_t azimuth) {
         ArcCells& profile = profiles_[azimuth % profiles_.size()];
         if (profile.empty()) profile = light_.at(step_ * static_cast<double>(azimuth % profiles_.size()));

@@ -1,5 +1,5 @@
-// A flat object's map over the azimuth of g in its plane and v_g: planar_map.h. With LOBE_MAP it is
-// over v_h as well: lobe_map.h; with HALF_TURN over half of the azimuths. With PITCH_AXIS it is over pitches as well.
+// A flat object's map over the azimuth of g in its plane and v_g: planar_map.h. With LOBE_MAP it is over v_h as well:
+// lobe_map.h; with HALF_TURN over half of the azimuths. With PITCH_AXIS it is over pitches as well.
 #ifdef LOBE_MAP
 TEXTURE_UNIT(11) uniform sampler3D lobe_map;
 uniform vec4 lobe_map_axes;  // scales of v_g, v_h and the azimuth, offset of the azimuth

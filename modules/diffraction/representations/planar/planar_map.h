@@ -34,7 +34,7 @@ struct LightDisc {
 inline void add_scaled(float* to, const float* light, float weight) {
     for (int c = 0; c < 4; ++c) to[c] += weight * light[c];
 }
-/// The columns [begin, end) of a row outside which it is black. A cell holds light from up to a cell away.
+/// The columns [begin, end) outside which a row is black. A cell holds light from up to a cell away.
 std::pair<int, int> lit_columns(int cells, int row);
 
 /// Uses all cores; the result does not depend on their number.
@@ -73,10 +73,10 @@ constexpr PlanarMapSize planar_map_size(int views) {
 /// The size of the map that is shown while a larger one is filled: it is filled within 10 ms on two cores.
 inline constexpr PlanarMapSize kCoarsePlanarMap{.azimuths = 64, .views = 64, .pitch = std::nullopt};
 
-/// Fills a map with values for linear interpolation: they are not the radiance at the nodes. `normal`: unit.
+/// Fills a map with values for linear interpolation: they are not the radiance at the nodes.
 /// `zero_order_xyz`: as of ColourKernel. `cover`: T(s_n) is in the map, T(v_n) is not. Light is spread over the
-/// azimuths between two nodes (PHYSICS §6). Uses all cores; the result does not depend on them. After a stop request
-/// it returns early with an unusable map.
+/// azimuths between two nodes (PHYSICS §6). Uses all cores; the result does not depend on their number. After a stop
+/// request it returns early with an unusable map.
 PlanarMap fill_planar_map(const lighting::LightSamples& texels, const KernelTable& kernel, double pitch_nm,
                           const glm::dvec3& normal, const PlanarMapSize& size = {},
                           const glm::dmat3& zero_order_xyz = glm::dmat3(0.0),
@@ -89,8 +89,8 @@ std::function<glm::dvec3(const ShadingPoint&)> planar_map_of_points(const lighti
                                                                     const glm::dmat3& zero_order_xyz,
                                                                     const std::optional<Cover>& cover);
 
-/// XYZ at an azimuth (radians, unbounded) and a v_g, as the texture unit interpolates. The pitch factor is for maps
-/// with a pitch axis.
+/// XYZ at an azimuth (radians, unbounded) and a v_g, as the texture unit interpolates. Only maps with a pitch axis
+/// use the pitch factor.
 glm::dvec3 sample(const PlanarMap& map, double azimuth, double v_g, double pitch_factor = 1.0);
 
 /// XYZ of a point whose normal is the map's; black for a view below the horizon.

@@ -85,8 +85,8 @@ struct SpikeTableSettings {
     void set_illuminant(const colour::Illuminant& white) { spikes.illuminant = white; }
 };
 
-/// Bakes the spikes of every node. Throws Error (input) for a one-dimensional mapping of a lobe that is not flat. The
-/// bytes do not depend on the number of threads.
+/// Bakes the spikes of every node. Throws Error (input) for fewer than kManyGrooves grooves, and for a one-dimensional
+/// mapping of a lobe that is not flat. The bytes do not depend on the number of threads.
 SpikeTable bake(const Grating& grating, const SpikeTableSettings& settings);
 
 /// The spikes of the tangent-frame view (v_g, v_h, v_n), as GL_LINEAR filters at the coordinates of view_mapping.h.

@@ -12,7 +12,6 @@
 #include <span>
 #include <string_view>
 
-#include "engine/core/check.h"
 #include "engine/core/error.h"
 #include "engine/lighting/light_samples.h"
 #include "modules/diffraction/bake/view_spectrum.h"
@@ -77,16 +76,18 @@ constexpr double kBeyondNodes = 0.015;
 /// Regularisation of the fit, as a fraction of its diagonal.
 constexpr double kRidge = 1e-3;
 
-/// Least squares of the sum of the nodes' normal distributions against one element of the kernel, by weights that are
-/// not negative: the kernel is not either, and a light narrower than a node would show a negative weight as a dark
-/// spot. Coordinate descent; neighbours overlap by half, so that an eighth of the error is left by five sweeps.
-std::vector<double> fit_element(const std::vector<double>& nodes, double width_nm, const std::vector<double>& kernel) {
+/// Non-negative least squares: the weights with which the nodes' normal distributions add up to one element of the
+/// kernel. The kernel is not negative, and a light narrower than a node would show a negative weight as a dark spot.
+/// Coordinate descent; neighbours overlap by half, so that five sweeps leave an eighth of the error. `products`: inner
+/// products of the nodes' distributions with the kernel.
+std::vector<double> fit_element(const std::vector<double>& nodes, double width_nm,
+                                const std::vector<double>& products) {
     constexpr int kSweeps = 100;
     constexpr double kReach = 8.0;  // in widths, where the product of two nodes is 1e-7
     std::vector<double> weights(nodes.size(), 0.0);
     for (int sweep = 0; sweep < kSweeps; ++sweep)
         for (std::size_t i = 0; i < nodes.size(); ++i) {
-            double residual = kernel[i];
+            double residual = products[i];
             for (std::size_t j = 0; j < nodes.size(); ++j) {
                 const double z = (nodes[i] - nodes[j]) / width_nm;
                 if (j != i && std::abs(z) < kReach) residual -= std::exp(-0.25 * z * z) * weights[j];
@@ -132,7 +133,7 @@ void fit_weights(std::span<const KernelRaster> rasters, double width_nm, std::ve
     for (const StreakSegment& segment : segments)
         for (int j = 0; j < kSegmentNodes; ++j) nodes.push_back(segment.path_nm(j));
     for (int e = 0; e < 9; ++e) {
-        std::vector<double> kernel(nodes.size(), 0.0);
+        std::vector<double> products(nodes.size(), 0.0);
         double whole = 0.0;
         for (const KernelRaster& raster : rasters)
             for (std::size_t k = 0; k < raster.sums.size(); ++k) {
@@ -140,12 +141,12 @@ void fit_weights(std::span<const KernelRaster> rasters, double width_nm, std::ve
                 whole += part;
                 for (std::size_t i = 0; i < nodes.size(); ++i) {
                     const double z = (raster.middle_nm(k) - nodes[i]) / width_nm;
-                    if (std::abs(z) < 6.0) kernel[i] += std::numbers::sqrt2 * std::exp(-0.5 * z * z) * part;
+                    if (std::abs(z) < 6.0) products[i] += std::numbers::sqrt2 * std::exp(-0.5 * z * z) * part;
                 }
             }
-        const std::vector<double> weights = fit_element(nodes, width_nm, kernel);
+        const std::vector<double> weights = fit_element(nodes, width_nm, products);
         const double sum = std::accumulate(weights.begin(), weights.end(), 0.0);
-        for (std::size_t i = 0; i < nodes.size() && sum > 0.0; ++i)  // even light is exact
+        for (std::size_t i = 0; i < nodes.size() && sum > 0.0; ++i)  // uniform light is exact
             segments[i / kSegmentNodes].weights[i % kSegmentNodes][e / 3][e % 3] =
                 static_cast<float>(weights[i] * whole / sum);
     }
@@ -160,7 +161,7 @@ struct StreakView {
     std::optional<Cover> cover = std::nullopt;
 
     double side() const { return std::abs(view.y); }
-    /// Radii √(1 − s_g²) from which on some and all of the lobe is above the horizon.
+    /// Radii √(1 − s_g²) from which on some of the lobe, and all of it, is above the horizon.
     double some() const { return std::max(side() - streak.reach(), 0.0); }
     double all() const { return side() + streak.reach(); }
 };

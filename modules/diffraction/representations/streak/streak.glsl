@@ -1,12 +1,13 @@
 // A narrow lobe mirrors the probe along the grooves and disperses it across them: streak.h, evaluate(). The program
-// defines NODES, those of a segment, and REST where an arc table shades the incoherent rest of Stam's pits.
+// defines NODES, the number of nodes of a segment, and REST where an arc table shades the incoherent part of Stam's
+// pits.
 #include "modules/diffraction/representations/streak/streak_path.glsl"
 #ifdef REST
 #include "modules/diffraction/representations/arc/arc.glsl"
 #endif
 
-// Of a segment: x: first path over the pitch; y: step over the pitch. Then for each node the columns: of red, green and
-// blue light, working space.
+// A segment: x: its first path over the pitch; y: its step over the pitch. Then for each node the columns of its
+// weight, for red, green and blue light, in the working space.
 #ifdef GL_ES
 STORAGE(6, StreakSegments, vec4, streak_segments);
 uniform int streak_segment_count;
@@ -22,13 +23,13 @@ layout(std430, binding = 6) readonly buffer StreakSegments { StreakSegment strea
 vec4 segment_first_step(int i) { return streak_segments[i].first_step; }
 vec4 segment_weight(int i, int k) { return streak_segments[i].weights[k]; }
 #endif
-uniform float streak_reach;  // streak.h
+uniform float streak_reach;  // streak.h: Streak::reach()
 uniform float streak_power;
 uniform float rest_weight;
 
-// The same for all nodes of a view. Radii sqrt(1 - s_g^2) from which on some and all of the lobe is above the horizon.
+// Values that are the same for all nodes of a view.
 struct StreakView {
-    float all;     // radius from which on all of the lobe is above the horizon
+    float all;     // radius sqrt(1 - s_g^2) from which on all of the lobe is above the horizon
     float half_sign;  // half the sign of s_h
     float limit;  // of |s_g|
     vec2 above;   // the fraction above the horizon: x - y s_g^2
@@ -46,7 +47,7 @@ StreakView streak_view(GrooveView view) {
 // s_n^2 of the direction (s_g, s_h).
 float square_n(float s_g, float s_h) { return max(1.0 - s_g * s_g - s_h * s_h, 1e-4); }
 
-// Of the light at (s_g, s_h).
+// chart_coordinates() of the light at (s_g, s_h).
 vec3 lobe_position(float s_g, float s_h, float up, mat3 axes) {
     float s_n = sqrt(square_n(s_g, s_h));
     return chart_coordinates(axes * vec3(s_g, s_h, s_n), axes[1] * s_n - axes[2] * s_h, up);

@@ -40,7 +40,8 @@ struct Streak {
     double power = 1.0;  ///< fraction of the power in the narrow lobe: κ of Stam's pits
     std::vector<StreakSegment> segments;
 
-    /// Half the interval of s_h over which the horizon cuts the lobe: its fraction above is linear there.
+    /// Half the interval of r = √(1 − s_g²) in which the horizon cuts the lobe. The fraction of the lobe above the
+    /// horizon is taken as linear in r² there.
     double reach() const { return 1.7320508 * sigma; }
 };
 
@@ -53,7 +54,7 @@ struct StreakSettings {
 /// without a coherent fraction.
 Streak make_streak(const Grating& grating, const StreakSettings& settings);
 
-/// The map that the streak's nodes look up.
+/// The map that the streak's nodes look up. Its side is `map_resolution` rounded down to a multiple of 4.
 StreakMapSize map_size(const Streak& streak, int map_resolution);
 
 /// The incoherent part of a grating with Stam's pits: the same grating with the incoherent, smooth lobe, which SH can
@@ -61,13 +62,12 @@ StreakMapSize map_size(const Streak& streak, int map_resolution);
 std::optional<Grating> incoherent_part(const Grating& grating);
 
 /// XYZ of the streak for the tangent-frame view; the columns of `axes` are g, h, n in the world. Every segment looks up
-/// the map at its nodes, whose position in the map is a parabola through three points of the segment, whose
-/// direction is linear between its ends, and whose length is that of its middle. Light below the
-/// horizon is black. 0 for v_n ≤ 0. A cover multiplies each node by T(s_n); T(v_n) is left out.
+/// the map at its nodes, whose positions lie on a parabola through three points of the segment (StreakPath). Light
+/// below the horizon is black. 0 for v_n ≤ 0. A cover multiplies each node by T(s_n); T(v_n) is left out.
 glm::dvec3 evaluate(const Streak& streak, const StreakMap& map, const glm::dmat3& axes, const glm::dvec3& view,
                     const std::optional<Cover>& cover = std::nullopt);
 
-/// The most nodes that one view sees, and so that one pixel reads.
+/// The most nodes that one view sees, and thus that one pixel reads.
 int most_seen_nodes(const Streak& streak);
 
 void write(const Streak& streak, ByteWriter& writer);
@@ -95,7 +95,7 @@ void write(const StreakTables& tables, ByteWriter& writer);
 StreakTables read(ByteReader& reader, const StreakSurfaceSettings& settings);
 ShadingCost cost(const StreakTables& tables);
 Facts facts(const StreakTables& tables);
-/// Throws Error (input) for band-limited light.
+/// `tables` must outlive the result. Throws Error (input) for band-limited light.
 PointShader point_shader(const StreakTables& tables, const MaterialKernel& material, const EvaluationLight& light);
 
 }  // namespace rowland::diffraction

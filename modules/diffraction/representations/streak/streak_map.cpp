@@ -15,11 +15,11 @@ namespace rowland::diffraction {
 
 namespace {
 
-/// From level to level the lobe's width grows by this.
+/// Ratio of the lobe's widths at successive levels.
 constexpr double kWidthGrowth = 1.5;
-/// Of a level's width: what is blurred here. Interpolation between texels adds the rest.
+/// The part of a level's width that blurred_cube() adds. Interpolation between texels adds the remainder.
 constexpr double kBlurredWidth = 0.866;
-/// The blurs end so many deviations from their middle.
+/// The deviations from its middle at which a blur ends.
 constexpr float kReach = 3.5F;
 /// Cells of a face's side, to find the light about a direction.
 constexpr int kBins = 32;
@@ -110,7 +110,7 @@ BlurredCube blurred_cube(const lighting::LightSamples& texels, double deviation,
     return cube;
 }
 
-/// A texel's direction, and the tangents that its chart maps to its axes.
+/// A texel's direction, and the tangents that its chart maps to the chart's axes.
 struct ChartFrame {
     glm::dvec3 s{0.0};
     glm::dvec3 e1{0.0};
@@ -120,13 +120,13 @@ struct ChartFrame {
 ChartFrame chart_frame(const glm::dvec2& p, int chart) {
     const double square = glm::dot(p, p);
     const glm::dvec3 up = glm::dvec3(2.0 * p.x, 1.0 - square, 2.0 * p.y) / (1.0 + square);
-    const glm::dvec3 turn = up + glm::dvec3(0.0, 1.0, 0.0);
+    const glm::dvec3 bisector = up + glm::dvec3(0.0, 1.0, 0.0);
     const auto mirrored = [&](glm::dvec3 v) {
         if (chart == 1) v.y = -v.y;
         return v;
     };
-    return {mirrored(up), mirrored(glm::dvec3(1.0, 0.0, 0.0) - p.x * turn),
-            mirrored(glm::dvec3(0.0, 0.0, 1.0) - p.y * turn)};
+    return {mirrored(up), mirrored(glm::dvec3(1.0, 0.0, 0.0) - p.x * bisector),
+            mirrored(glm::dvec3(0.0, 0.0, 1.0) - p.y * bisector)};
 }
 
 /// The samples of a normal distribution along an arc.

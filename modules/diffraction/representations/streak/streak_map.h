@@ -19,7 +19,7 @@ struct StreakMapSize {
     int directions = 16;   ///< texels over the directions of the lobe, a multiple of 4
     double length = 0.05;  ///< deviation along the lobe at level 0, in radians
 
-    /// Deviation across the lobe at level 0, interpolation included: of a node in s_g.
+    /// Deviation across the lobe at level 0 in radians, interpolation included: about that of a node in s_g.
     double width() const { return 3.84 / side; }
 };
 
@@ -55,7 +55,8 @@ struct StreakPosition {
     double level = 0.0;
 };
 
-/// `direction`: of unit length; `along`: a tangent there, of any length. `chart`: 0 or 1. World axes.
+/// The texture coordinates of a lobe, at level 0. `direction`: of unit length; `along`: a tangent there, of any length.
+/// `chart`: 0 or 1. World axes.
 StreakPosition streak_position(const glm::dvec3& direction, const glm::dvec3& along, int chart);
 
 /// Fills the map from a probe's texels. Uses all cores; the result does not depend on their number. After a stop

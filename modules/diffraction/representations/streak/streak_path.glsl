@@ -6,7 +6,7 @@ uniform float streak_level;                     // log2 of a lobe's deviation ov
 const float CHART_SCALE = 0.5 / 1.1;
 const float RIM = 0.905;
 
-// Stereographic, of the half sphere above (`up` = 1) or below (-1) the horizon.
+// Stereographic projection of the half sphere above (`up` = 1) or below (-1) the world's horizon.
 vec2 chart_position(vec3 s, float up) { return s.xz / max(1.0 + up * s.y, RIM); }
 
 // xy: chart_position(); z: angle in the chart of the tangent `along`, as the map's third texture coordinate.
