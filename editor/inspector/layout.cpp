@@ -57,6 +57,7 @@ Layout load_layout(const std::filesystem::path& path) {
         layout.recent = json.value("recent", layout.recent);
     } catch (const std::exception& error) {
         log_warning("{}: using the default layout: {}", path.string(), error.what());
+        return {};
     }
     return layout;
 }

@@ -1,9 +1,11 @@
 #include "editor/inspector/session.h"
 
 #include <spawn.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <cstring>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -56,6 +58,7 @@ void Session::open_in_demo() {
         const int code = posix_spawn(&process, program.c_str(), nullptr, nullptr, pointers.data(), environ);
         if (code != 0)
             fail_system(program.string(), std::strerror(code), "build or install the demo beside this program");
+        std::thread([process] { waitpid(process, nullptr, 0); }).detach();  // or the closed demo stays as a zombie
         messages.say("the demo starts");
     });
 }

@@ -167,7 +167,10 @@ std::filesystem::path cook_once(const Registry& registry, const std::filesystem:
     read_files.push_back(source);
     const std::optional<Hash128> source_hash = hash_file(source);
     const AssetType* type = source_hash ? registry.recognise(source) : nullptr;
-    if (type == nullptr || !type->cook) bake_source(registry, source);  // throws: says why it cannot be cooked
+    if (type == nullptr || !type->cook) {
+        bake_source(registry, source);  // throws: says why it cannot be cooked
+        refuse_input(source.string(), "", "a file that changed while it was read", "a source", "cook it again");
+    }
     const auto output_of = [&](const std::string& content) { return cache_folder / (content + type->extension); };
     const std::filesystem::path record_file = cache_folder / (source_hash->hex() + ".json");
     if (const std::optional<CookRecord> record = read_cook_record(record_file))

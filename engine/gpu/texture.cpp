@@ -221,7 +221,7 @@ void Texture::set_sampling(const Sampling& sampling) {
                             sampling.compare_depth ? GL_COMPARE_REF_TO_TEXTURE : GL_NONE);
         glTextureParameteri(id(), GL_TEXTURE_COMPARE_FUNC, GL_LEQUAL);
     }
-    if (sampling.level_bias != 0.0F) glTextureParameterf(id(), GL_TEXTURE_LOD_BIAS, sampling.level_bias);
+    glTextureParameterf(id(), GL_TEXTURE_LOD_BIAS, sampling.level_bias);
     // Core in 3.2, but off by default: without it cube maps show the edges of their faces.
     if (desc_.kind == TextureKind::CubeMap) glEnable(GL_TEXTURE_CUBE_MAP_SEAMLESS);
 }

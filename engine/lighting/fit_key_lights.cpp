@@ -323,7 +323,7 @@ std::vector<KeyLight> fit_key_lights(const ProbeImage& probe, int count, const K
     if (count == 0) return {};
     const MeasuredProbe measured(bin_into_cells(probe, kFitFace), kFitFace, settings);
     // Bilinear interpolation spreads a texel's light with a variance of a sixth of the square of its side.
-    const double side = 2.0 * pi / probe.image().width;
+    const double side = std::max(2.0 * pi / probe.image().width, pi / probe.image().height);
     const double narrowest = std::clamp(6.0 / (side * side), kWidestConcentration, kNarrowestConcentration);
     Candidates candidates(measured, narrowest);
     Fit fit(measured);

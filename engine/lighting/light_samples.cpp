@@ -173,9 +173,9 @@ LightSamples light_samples(const ProbeImage& probe, std::span<const KeyLight> ke
     const FineProbe fine(probe, largest_side);
     LightSamples texels = row_samples(*fine, 0, fine->image().height);
     const auto width = static_cast<std::size_t>(fine->image().width);
+    const double side = std::max(2.0 * std::numbers::pi / fine->image().width, std::numbers::pi / fine->image().height);
     subtract_lobes(
-        keys, 2.0 * std::numbers::pi / fine->image().width, texels.size(),
-        [&](std::size_t i) { return texels.direction(i); },
+        keys, side, texels.size(), [&](std::size_t i) { return texels.direction(i); },
         [&](std::size_t i) { return fine->solid_angle(static_cast<int>(i % width), static_cast<int>(i / width)); },
         texels,
         [&](std::size_t i, const glm::dvec3& flux) {

@@ -108,7 +108,7 @@ class Search {
         for (const nlohmann::json& settings : query_.settings)
             if (auto quality = as_quality(settings, query_.material))
                 choices.push_back({.settings = settings, .quality = std::move(*quality), .baked = {}});
-        const std::size_t steps = query_.good_enough ? 2 : 3;
+        const std::size_t steps = query_.good_enough && !query_.cheaper ? 2 : 3;
         state_.total = steps * choices.size() + (query_.first ? 1 : 0);
         if (query_.first) {
             MeasuredChoice first{.settings = *query_.first, .quality = query_.material.quality, .baked = {}};

@@ -70,7 +70,10 @@ void FillQueue::run(const std::stop_token& stop) {
     while (changed_.wait(guard, stop, [&] { return !jobs_.empty(); })) {
         running_ = std::move(jobs_.front());
         jobs_.pop_front();
-        if (running_->stop.stop_requested()) continue;
+        if (running_->stop.stop_requested()) {
+            running_.reset();
+            continue;
+        }
         guard.unlock();
         FilledMap map;
         std::string failure;

@@ -123,6 +123,7 @@ export function rotationsOf({ rotation }: GrooveMap, texture: Texture, geometry:
     texture.updateMatrix();
     return Array.from({ length: geometry.getAttribute("position").count }, (_, vertex) => {
         if (coordinates) at.fromBufferAttribute(coordinates as never, vertex);
+        else at.set(0, 0);
         at.applyMatrix3(texture.matrix);
         return rotation(at.x, at.y);
     });

@@ -382,14 +382,13 @@ PointShader point_shader(const StreakTables& tables, const MaterialKernel& mater
                      .remedy = "give --probe"});
     PointShader incoherent = [](const ShadingPoint&) { return glm::dvec3(0.0); };
     if (tables.incoherent) incoherent = point_shader(*tables.incoherent, material, light);
-    return
-        [map = std::make_shared<const StreakMap>(fill_streak_map(lighting::light_samples(*light.probe()), tables.map)),
-         &tables, incoherent, cover = material.cover](const ShadingPoint& frame) {
-            const glm::dmat3 tangent = world_to_tangent(frame);
-            const glm::dvec3 view = tangent * glm::normalize(frame.view);
-            return evaluate(tables.streak, *map, glm::transpose(tangent), view, cover) +
-                   (1.0 - tables.streak.power) * incoherent(frame);
-        };
+    return [map =
+                std::make_shared<const StreakMap>(fill_streak_map(lighting::light_samples(*light.probe()), tables.map)),
+            streak = tables.streak, incoherent, cover = material.cover](const ShadingPoint& frame) {
+        const glm::dmat3 tangent = world_to_tangent(frame);
+        const glm::dvec3 view = tangent * glm::normalize(frame.view);
+        return evaluate(streak, *map, glm::transpose(tangent), view, cover) + (1.0 - streak.power) * incoherent(frame);
+    };
 }
 
 }  // namespace rowland::diffraction
