@@ -11,10 +11,10 @@ namespace rowland::demo {
 
 using live::LiveAssets;
 
-/// The demo's assets. Shipped cooked ones are recooked and reloaded when their sources change.
+/// The demo's assets. The shipped ones are cooked again and reloaded when their sources change.
 LiveAssets open_assets(const Options& options);
 
-/// Sources and cooked files of all that content/CMakeLists.txt cooks for the demo.
+/// Source and cooked file of each asset that content/CMakeLists.txt cooks for the demo; without missing sources.
 std::vector<cook::Recooker::Job> shipped_jobs(const Options& options);
 
 /// The probe of the command line, or all cooked ones: captures where there are any, then procedural ones.

@@ -9,14 +9,14 @@
 namespace rowland::demo {
 
 /// The camera of a flight once around `start`'s target, `progress` in 0 to 1. It begins and ends at `start`; on the way
-/// it comes down to grazing views and rises above the scene.
+/// it first rises above the scene, then comes down to grazing views.
 scene::Camera flight(const scene::Camera& start, double progress);
 
-/// `start` after a part of a turn about the vertical through its target.
+/// `start` rotated about the vertical through its target; `progress`: fraction of a full turn.
 scene::Camera turned(const scene::Camera& start, double progress);
 
-/// The camera of a smooth flight through all views, of which there must be one. The time between any two is the same.
-/// A single view is flown around.
+/// The camera of a smooth flight through all views, at `progress` in 0 to 1. All legs take the same time. There must be
+/// at least one view; a single view is circled by flight().
 scene::Camera tour(const std::vector<scene::Camera>& views, double progress);
 
 /// The views of a scene's cameras at rest, in the order of the file. A view's target, about which the user orbits, is

@@ -274,7 +274,7 @@ void DemoScene::show_scene(const scene::ImportedScene& imported, const std::stri
     for (const ecs::Entity node : instance_->nodes)
         if (world_.find<scene::Parent>(node) == nullptr) world_.add(node, scene::Parent{own_view_ ? root_ : grating_});
     if (own_view_) return;
-    // The entity that turns the scene also scales it; its size is that of the scene at rest.
+    // grating_ also scales the scene to the CD's size, measured at rest.
     scene::Transform fit = fitting(scene::bounds(scene::merge_instances(imported)), kOwnMeshSize);
     fit.translation.y += kLift;
     world_.get<scene::Transform>(grating_) = fit;
@@ -351,7 +351,7 @@ void DemoScene::pose_stand() {
 void DemoScene::pose(const Play& play) {
     const double elapsed = play.time_s() - posed_s_;
     posed_s_ = play.time_s();
-    // The stand stops when the grating is grabbed, which must not turn under the hand.
+    // The stand stops once the grating has been grabbed, which must not turn under the hand.
     if (own_view_ || !play.bodies().front().state.touched) stand_s_ += elapsed;
     pose_stand();
     if (!instance_ || instance_->animations.empty()) return;

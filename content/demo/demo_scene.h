@@ -34,14 +34,14 @@ class DemoScene {
     /// `xyz_to_working` as the renderer's. Throws Error (input).
     DemoScene(const Options& options, LiveAssets& assets, render::Renderer& renderer, const glm::dmat3& xyz_to_working);
 
-    /// Shows reloaded assets. True if one was a mesh, so that toys() have changed. An asset that cannot be used changes
-    /// nothing, and failures() says why.
+    /// Shows reloaded assets. True if one was a mesh or a scene, so that toys() have changed. An asset that cannot be
+    /// used changes nothing, and failures() says why.
     bool refresh();
     const std::vector<std::string>& failures() const { return failures_; }
 
-    /// What can be played with, at rest. From then on the play moves it.
+    /// The objects that can be played with, in their rest pose. From then on the play moves them.
     Toys toys();
-    /// Moves what moves by itself to where it is at the play's time.
+    /// Moves the stand and the nodes of the scene's first animation to their pose at the play's time.
     void pose(const Play& play);
     /// Where the player may walk.
     scene::Bounds room();
@@ -51,12 +51,12 @@ class DemoScene {
     void set_sun(bool on);
     bool sun() const { return world_.alive(sun_); }
 
-    /// The sheet that the scene's first camera looks through: its extras' "glare", null if there is none.
+    /// The sheet that the scene's first camera looks through: "glare" of its node's extras, null if there is none.
     const nlohmann::json* sheet() const;
 
     ecs::World& world() { return world_; }
     const scene::Camera& camera() const { return camera_; }
-    /// All views of the scene, the first one being camera(); or that one alone.
+    /// All views of the scene, camera() first; camera() alone if it has no camera or the options set the view.
     std::vector<scene::Camera> views() const;
 
  private:
@@ -64,7 +64,7 @@ class DemoScene {
     struct Part {
         std::function<std::uint64_t()> version;
         std::function<void()> show;
-        std::uint64_t shown;  ///< version
+        std::uint64_t shown;  ///< the version that the world has
     };
 
     template <typename T, typename Show>
@@ -92,10 +92,10 @@ class DemoScene {
     std::vector<std::pair<ecs::Entity, render::MeshInstance>> hidden_floor_;
     bool disc_ = true;
     bool own_view_ = false;     ///< the scene has a camera
-    bool chosen_view_ = false;  ///< the options say the first view
+    bool chosen_view_ = false;  ///< the options set the first view
     bool meshes_changed_ = false;
     double posed_s_ = 0.0;  ///< the play's time at the last pose
-    double stand_s_ = 0.0;  ///< for which the stand has moved
+    double stand_s_ = 0.0;  ///< time for which the stand has moved
     scene::Camera camera_;
 };
 
@@ -105,7 +105,7 @@ struct Sheet {
     std::filesystem::path file;  ///< a material; empty: the scene's own
 };
 
-/// That of the command line, or the scene's own and the shipped ones.
+/// The sheet of the command line; without one, the scene's own, then the shipped ones.
 std::vector<Sheet> sheets(const Options& options, const DemoScene& scene);
 
 /// Reads a sheet. Throws Error (input).

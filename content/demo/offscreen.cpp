@@ -29,7 +29,7 @@ constexpr int kTourFrames = 12;
 constexpr int kTourFramesPerSecond = 2;
 constexpr std::size_t kTourProbes = 4;
 
-void pass_time(Play& play, int frames_per_second) {
+void advance(Play& play, int frames_per_second) {
     for (int i = 0; i < kStepsPerSecond / frames_per_second; ++i) play.step({});
 }
 
@@ -48,7 +48,7 @@ void write_captures(Session& session, const Options& options) {
             session.draw_from(turned(session.play().camera(), static_cast<double>(frame) / frames),
                               1.0F / kFramesPerSecond);
         } else {
-            if (frame > 0) pass_time(session.play(), kFramesPerSecond);
+            if (frame > 0) advance(session.play(), kFramesPerSecond);
             session.draw(1.0F / kFramesPerSecond);
         }
         write_frame_captures(session, options, frame, frames);
@@ -65,7 +65,7 @@ void write_tour(Session& session, const Options& options) {
     for (int frame = 0; frame < frames; ++frame) {
         const auto& probe = probes[static_cast<std::size_t>(frame) * probes.size() / static_cast<std::size_t>(frames)];
         if (probe != session.probe_path()) session.use_probe(probe);
-        if (frame > 0) pass_time(session.play(), kTourFramesPerSecond);
+        if (frame > 0) advance(session.play(), kTourFramesPerSecond);
         const scene::Camera camera = tour(views, frames > 1 ? static_cast<double>(frame) / (frames - 1) : 0.0);
         session.draw_from(camera, 1.0F / kTourFramesPerSecond);
         const std::string name = fmt::format("flight_{:02}_{}.png", frame, probe.stem().string());
@@ -131,7 +131,7 @@ std::chrono::nanoseconds draw(Session& session, const scene::Camera& camera) {
 }
 
 /// Median over frames of the time with gratings divided by the time without, drawn back to back.
-double times_plain(Session& session, int frames) {
+double ratio_to_plain(Session& session, int frames) {
     std::vector<double> ratios;
     for (int frame = -kWarmUpFrames; frame < frames; ++frame) {
         const scene::Camera camera = flight(session.scene().camera(), std::max(frame, 0) / static_cast<double>(frames));
@@ -174,11 +174,10 @@ nlohmann::ordered_json to_json(const platform::FrameStatistics& statistics) {
             {"maximum_ms", statistics.maximum_ms}};
 }
 
-/// Flies once around the scene in so many frames, 1/30 s of the scene's time apart, each finished before the next.
+/// Flies once around the scene in `frames` frames, 1/30 s of the scene's time apart, each finished before the next.
 /// Returns the report: "device" (as given), "width", "height", "frame" (time from the first command to the last pixel),
-/// "times_plain" (cost of gratings: ratio to the frame without them), "passes" (in their order), "drawn" and "culled"
-/// (objects in the last frame), "baked" (sources that the program had to bake). The first frames, which compile and
-/// upload, are not counted.
+/// "times_plain" (ratio_to_plain()), "passes" (in their order), "drawn" and "culled" (objects in the last frame),
+/// "baked" (sources that the program had to bake). The first frames, which compile and upload, are not counted.
 nlohmann::ordered_json fly_around(Session& session, int frames, const std::string& device) {
     view::Picture& picture = session.picture();
     const auto capacity = static_cast<std::size_t>(frames);
@@ -199,7 +198,7 @@ nlohmann::ordered_json fly_around(Session& session, int frames, const std::strin
                                      {"width", picture.encoded().size().x},
                                      {"height", picture.encoded().size().y},
                                      {"frame", to_json(frame_times.statistics())},
-                                     {"times_plain", times_plain(session, std::clamp(frames / 4, 1, 40))},
+                                     {"times_plain", ratio_to_plain(session, std::clamp(frames / 4, 1, 40))},
                                      {"passes", nlohmann::ordered_json::array()}};
     for (const PassSamples& pass : passes)
         report["passes"].push_back(

@@ -127,7 +127,7 @@ bool is_numbered(const std::filesystem::path& file, const std::filesystem::path&
            name.find_first_not_of("0123456789", start.size()) == std::string::npos;
 }
 
-/// Of several frames: the first one's picture, and all numbered ones that exist and would be overwritten.
+/// Adds the picture; of several frames, the first one's and all numbered ones that exist and would be overwritten.
 void add_captures(std::vector<Output>& outputs, const Options& options, const char* option,
                   const std::optional<std::filesystem::path>& path, const char* extension) {
     if (!path) return;

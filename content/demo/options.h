@@ -30,10 +30,10 @@ struct Options : app::CommonOptions {
     std::optional<float> focus_m;   ///< none: the view's target is in focus
     float grain = 0.0F;             ///< deviation of display values in mid-tones
     bool dither = false;
-    std::optional<double> gratings_ms;  ///< of the GPU, for all gratings of a frame; none: everything at its best
+    std::optional<double> gratings_ms;  ///< GPU time for all gratings of a frame; none: not limited
     bool ambient_occlusion = true;      ///< and contact shadows
     bool soft_shadows = true;
-    bool local_reflections = true;               ///< of the table and of objects
+    bool local_reflections = true;               ///< mirrors show the table and objects, not only the probe
     bool rough_reflections = false;              ///< rough surfaces look the probe up in four directions
     bool sun = false;                            ///< a lamp that casts shadows
     std::optional<std::array<float, 6>> camera;  ///< eye and target, metres

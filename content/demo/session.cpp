@@ -331,7 +331,7 @@ std::string scene_name(const Options& options) {
 std::optional<Recording> recording_for(const Options& options) {
     if (!options.play) return std::nullopt;
     Recording recording = load_recording(*options.play);
-    // A scene is the same as a glTF and cooked.
+    // A glTF file and the .scene cooked from it count as the same scene.
     const auto stem = [](const std::string& name) { return std::filesystem::path(name).stem(); };
     if (const std::string shown = scene_name(options); stem(recording.head.scene) != stem(shown))
         refuse_input(options.play->string(), "line 1",

@@ -40,8 +40,8 @@ inline Setting look_setting(Side side) {
 /// that it is made of.
 class Session {
  public:
-    /// `pixels`: of the picture; `window`: in the mouse's units; `map_wait`: see DiffractionSettings. Throws Error
-    /// (input).
+    /// `pixels`: size of the picture; `window`: size in the mouse's units; `map_wait`: see DiffractionSettings.
+    /// `options` and `config` must outlive it. Throws Error (input).
     Session(const Options& options, const post::OcioConfig& config, glm::ivec2 pixels, glm::ivec2 window, Pace pace,
             std::chrono::milliseconds map_wait = diffraction::kMapWait);
 
@@ -55,7 +55,7 @@ class Session {
     const std::filesystem::path& probe_path() const { return probe_path_; }
     const std::string& view() const { return view_; }
     const std::vector<std::string>& views() const { return views_; }
-    /// What one looks through; empty: nothing.
+    /// Name of the sheet that one looks through; empty: none.
     std::string sheet() const { return sheet_ == 0 ? std::string() : sheets_[sheet_ - 1].name; }
 
     /// Lights the scene with another probe. Throws Error (input) and keeps the old one.
@@ -68,7 +68,7 @@ class Session {
     void follow_files();
     /// Draws the world as the play has it, `seconds` after the last frame, then takes the screenshots asked for.
     void draw(float seconds);
-    /// The same through another camera, without screenshots.
+    /// Draws the world through another camera, without screenshots.
     void draw_from(const scene::Camera& camera, float seconds);
     /// What the user is told, newest last.
     const std::vector<Message>& messages() const { return messages_.all(); }
@@ -76,6 +76,7 @@ class Session {
     const diffraction::FrameBudgetReport* budget_report() {
         return scene_.world().find<diffraction::FrameBudgetReport>(budget_);
     }
+    /// The budget for all gratings of a frame; 0: none.
     double gratings_ms() {
         const auto* budget = scene_.world().find<diffraction::FrameBudget>(budget_);
         return budget != nullptr ? budget->gratings_ms : 0.0;
@@ -86,7 +87,7 @@ class Session {
  private:
     void set(const SettingEvent& setting);
     bool perform(Action action);
-    /// 0: none.
+    /// 0: no budget.
     void set_budget(double gratings_ms);
     void use_view(const std::string& view);
     void look_through(std::size_t sheet);
@@ -117,9 +118,9 @@ class Session {
     std::vector<std::string> views_;
     std::string view_;
     std::vector<Sheet> sheets_;
-    std::size_t sheet_ = 0;  ///< that one looks through: one more than its index; 0: none
+    std::size_t sheet_ = 0;  ///< one more than the index of the one looked through; 0: none
     std::vector<Action> screenshots_;
-    ecs::Entity budget_;  ///< has the FrameBudget, or none
+    ecs::Entity budget_;  ///< has the FrameBudget; not alive without a budget
 };
 
 /// What the options show, by the name that a recording stores.

@@ -92,7 +92,7 @@ class Program {
         log_state(session_.play());
         recording_.reset();
         if (closed_in_recording_) loop_.window().request_close();
-        // Keys that the recording left down are up.
+        // Releases the keys that the recording left down.
         play_clock_.live(session_.play(), {},
                          {platform::InputEvent(platform::FocusEvent{false}),
                           platform::InputEvent(platform::FocusEvent{true}), ResizeEvent{window_size_}},
@@ -132,7 +132,7 @@ class Program {
     glm::ivec2 window_size_;
     Session session_;
     Hud hud_;
-    ThreadLimit one_core_for_frames_;  ///< after loading
+    ThreadLimit one_core_for_frames_;  ///< only from here on, so that loading uses all cores
     PlayClock play_clock_;
     double title_age_s_ = 0.0;
     int frames_ = 0;

@@ -46,7 +46,7 @@ struct Options {
     std::vector<std::string> only;
 };
 
-/// The probes to capture, by the file of each.
+/// The probes to capture, keyed by the file that each is written to. Throws Error (input).
 std::map<std::filesystem::path, scene::ImportedProbe> wanted(const scene::ImportedScene& scene,
                                                              const Options& options) {
     const std::string file = options.scene.string();
@@ -103,8 +103,8 @@ glm::vec3 sample(const std::vector<glm::vec3>& face, int size, const lighting::C
 }
 
 /// What is seen from a point in all directions, as an equirectangular image of 4 · `face_size` by 2 · `face_size`
-/// texels: six pictures of so many texels a side, four samples to a texel, in 32-bit floats. `renderer`: one whose
-/// working space is linear Rec.709.
+/// texels. It is resampled from six cube faces of `face_size` texels a side, each texel the mean of four drawn pixels
+/// in 32-bit floats. The working space of `renderer` must be linear Rec.709.
 lighting::ProbeImage capture_surroundings(render::Renderer& renderer, ecs::World& world, const glm::vec3& position,
                                           int face_size) {
     const int drawn_size = 2 * face_size;
@@ -153,7 +153,7 @@ void capture(const Options& options) {
     renderer.use_key_lights(true);
     ecs::World world;
     const render::SceneInstance instance = render::instantiate(world, scene, renderer, options.scene.string());
-    // What was captured before lights nothing: a capture does not depend on the last one.
+    // Probes of earlier captures light nothing, so that a capture does not depend on the last one.
     for (const ecs::Entity probe : instance.probes) world.destroy(probe);
     scene::update_world_matrices(world);
 

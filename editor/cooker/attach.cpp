@@ -96,7 +96,7 @@ class Attachment {
         dependencies_ = {options_.scene};
     }
 
-    /// What is attached already keeps its files when the glTF goes to another folder.
+    /// Adapts the paths of files that materials name already, when the glTF is written to another folder.
     void move_files() {
         for (std::size_t i = 0; i < names_.size(); ++i)
             for (const cook::GltfExtension& extension : registry_.gltf_extensions()) {
@@ -134,7 +134,7 @@ class Attachment {
         if (options_.texture) object[extension->texture_member] = {{"index", add_texture()}};
         extension->describe(nlohmann::json::parse(object.dump()), source.string(), "");
         if (extension->move) extension->move(object, source.parent_path(), folder_);
-        remove_all_but(material, extension->name);  // a surface is of one module
+        remove_all_but(material, extension->name);  // one module draws a surface
         gltf_->set_material_extension(material, extension->name, object);
     }
 

@@ -55,14 +55,15 @@ void add_cook_command(CLI::App& program, const cook::Registry& registry) {
     });
 }
 
-/// Checks all files, even after one was refused. Returns the exit code.
+/// Checks all files, even after one was refused. The exit code: 1 if a file could not be checked, else 2 if one was
+/// refused.
 int check_all(const cook::Registry& registry, const std::vector<std::filesystem::path>& files) {
     bool refused = false;
     bool failed = false;
     for (const std::filesystem::path& file : files) {
         try {
             fmt::print("{}: {}\n", file.string(), cook::check_file(registry, file));
-            std::fflush(stdout);  // in step with standard error, and kept if the program should end at a later file
+            std::fflush(stdout);  // in order with standard error, and kept if a later file ends the program
         } catch (const Error& error) {
             log_error("{}", error.what());
             (error.info().fault == Fault::Input ? refused : failed) = true;

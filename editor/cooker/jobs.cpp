@@ -53,7 +53,7 @@ Job job_of(const cook::AssetType& type, const std::filesystem::path& source, std
             .output = output_folder / relative};
 }
 
-/// Refuses two jobs of one output.
+/// Sorts by output, and refuses two jobs with the same output.
 void sort_jobs(std::vector<Job>& jobs) {
     std::ranges::sort(jobs, {}, &Job::output);
     for (std::size_t i = 1; i < jobs.size(); ++i)
@@ -145,14 +145,14 @@ std::vector<Job> parse_plan(const std::string& text, const std::string& file) {
 
 namespace {
 
-/// Between two looks whether other processes have finished the jobs that are left.
-constexpr std::chrono::milliseconds kPatience{200};
+/// Between two checks whether other processes have finished the remaining jobs.
+constexpr std::chrono::milliseconds kPollInterval{200};
 
 std::string hex(const std::optional<Hash128>& hash) {
     return hash ? hash->hex() : std::string();
 }
 
-/// Jobs of one process.
+/// Does the jobs of one process.
 class Worker {
  public:
     Worker(const cook::Registry& registry, std::filesystem::path state_folder)
@@ -163,7 +163,7 @@ class Worker {
         create_folder(state_folder_);
     }
 
-    /// nullopt if another process is doing the job.
+    /// Cooks the job's source unless it is up to date. nullopt if another process is doing the job.
     std::optional<JobResult> try_job(const Job& job) {
         if (is_done(job)) return JobResult::UpToDate;
         const std::optional<FileLock> lock = FileLock::try_take(state_folder_ / (job.id + ".lock"));
@@ -195,7 +195,7 @@ class Worker {
                hex(hash_file(job.output)) == record->output_hash;
     }
 
-    /// A probe that many materials name is read once, unless it changes.
+    /// A file that many jobs depend on, such as a probe, is hashed once, unless its time or size changes.
     std::optional<Hash128> hash_of_source(const std::filesystem::path& path) {
         std::error_code code;
         const auto time = std::filesystem::last_write_time(path, code);
@@ -249,7 +249,7 @@ void run_jobs(const cook::Registry& registry, std::span<const Job> jobs, const s
             progress.advance();
         }
         left = std::move(taken);
-        if (!left.empty()) std::this_thread::sleep_for(kPatience);
+        if (!left.empty()) std::this_thread::sleep_for(kPollInterval);
     }
 }
 

@@ -214,7 +214,7 @@ Parameters least_squares(const Lobe& lobe, const LobeNodes& nodes, const Paramet
         }
         const Eigen::MatrixXd normal = slopes.transpose() * slopes;
         const Eigen::VectorXd gradient = slopes.transpose() * at_best;
-        bool goes_on = false;
+        bool improves = false;
         for (int attempt = 0; attempt < 8; ++attempt, damping *= 4.0) {
             Eigen::MatrixXd damped = normal;
             damped.diagonal() *= 1.0 + damping;
@@ -226,13 +226,13 @@ Parameters least_squares(const Lobe& lobe, const LobeNodes& nodes, const Paramet
             const Eigen::VectorXd at_next = residual(next);
             const double before = at_best.squaredNorm();
             if (at_next.squaredNorm() >= before) continue;
-            goes_on = before - at_next.squaredNorm() > 1e-5 * before;
+            improves = before - at_next.squaredNorm() > 1e-5 * before;
             best = next;
             at_best = at_next;
             damping *= 0.3;
             break;
         }
-        if (!goes_on) break;
+        if (!improves) break;
     }
     return best;
 }

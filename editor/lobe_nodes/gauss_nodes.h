@@ -30,7 +30,7 @@ struct LobePolynomials {
 /// x = cos^0.7.
 double lobe_coordinate(double cosine);
 
-/// `roughness`: perceptual.
+/// The polynomials of the lobe of one view. `roughness`: perceptual; at least kNarrowestRoughness is used.
 LobePolynomials lobe_polynomials(double view_cosine, double roughness);
 
 /// Angles and weights of Gauss's rule over a lobe, exact for polynomials of degree 7 in cos^0.7. `lean` and `roughness`

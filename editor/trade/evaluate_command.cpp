@@ -41,7 +41,7 @@ namespace rowland::trade {
 
 namespace {
 
-/// Smoother lobes lie between the samples of the light: the film is then a mirror.
+/// Below this roughness the lobe is narrower than the spacing of the light's samples, and the film shades as a mirror.
 constexpr double kSmoothest = 0.08;
 
 constexpr std::string_view kReference = "reference";
@@ -300,7 +300,7 @@ std::vector<glm::dvec3> EvaluateCommand::by_representation(const colour::Illumin
         const diffraction::CookedMaterial asset = diffraction::load_cooked_material(*cooked);
         const std::string& count = settings.at("--key-lights");
         const std::string& window = settings.at("--window");
-        // The asset's own representation with these two settings, read as everywhere else.
+        // Parses the two settings as those of any method.
         const diffraction::Method asked = diffraction::parse_method(
             fmt::format("{}{}{}", info(asset.tables).name, count.empty() ? "" : "/key_lights=" + count,
                         window.empty() ? "" : "/window=" + window));

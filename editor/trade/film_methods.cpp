@@ -81,14 +81,14 @@ struct MethodValues {
 };
 
 std::vector<MethodValues> methods(const thin_film::FilmTable& table) {
-    // Spherical harmonics [Lindsay & Agu 2005]: per view nine matrices, which light's nine coefficients are multiplied
-    // by; four numbers a fetch, half floats at as many angles as the table has.
+    // Spherical harmonics [Lindsay & Agu 2005]: nine matrices per view, one for each coefficient of the light, stored
+    // as half floats for as many angles as the table has. A fetch reads four numbers.
     constexpr int kNumbers = 9 * kCoefficients;
     constexpr int kRotation = 3 * (9 + 25);  // of the light into the surface's axes, bands 1 and 2
     const std::size_t sh_bytes = static_cast<std::size_t>(table.columns) * kNumbers * 2;
     return {{{.method = "table", .table_bytes = table.bytes(), .fetches = 3, .multiply_adds = 9, .functions = 1}},
             {{.method = "drawn", .table_bytes = table.bytes(), .fetches = 3, .multiply_adds = 9, .functions = 1}},
-            // Four of each, and as many reads of the lobe's nodes; three more of the environment.
+            // Fetches: four times those of "drawn", four of the lobe's nodes, and three more of the environment.
             {{.method = "drawn, rough reflections",
               .table_bytes = table.bytes(),
               .fetches = 19,

@@ -11,7 +11,7 @@
 
 namespace rowland::trade {
 
-/// A film index on a base, for comparisons of methods.
+/// A transparent film on a base, for comparisons of methods.
 struct FilmSubject {
     const char* name;
     double film_ior;
@@ -26,7 +26,7 @@ const std::array<FilmSubject, 6>& film_subjects();
 /// Linear Rec.709 by Airy's sum at 650, 550 and 450 nm.
 glm::dvec3 three_wavelengths(const thin_film::Film& film, double cosine);
 
-/// A method's error on a rough film under a probe, and its cost, counted in its formulas.
+/// A method's error on a rough film under a probe, and its cost by a count of the operations in its formulas.
 struct FilmRow {
     std::string film{};
     double roughness = 0.0;
@@ -34,7 +34,7 @@ struct FilmRow {
     double relative_rms = 0.0;  ///< of XYZ over views up to 70 degrees, against the sum over all microfacets
     std::size_t table_bytes = 0;
     int fetches = 0;        ///< per pixel, of the film alone
-    int multiply_adds = 0;  ///< to about ten
+    int multiply_adds = 0;  ///< accurate to about ten
     int functions = 0;      ///< sines, cosines, exponentials and roots
 };
 

@@ -86,7 +86,7 @@ class Page {
     /// Brightened so that the largest of `scale_of` is white.
     void add(int block_column, int block_row, const Colours& colours, const Colours& scale_of) {
         double largest = 0.0;
-        for (int i = 0; i < kThicknesses * kAngles * 2 / 3; ++i)  // up to 57 degrees: beyond, all are mirrors
+        for (int i = 0; i < kThicknesses * kAngles * 2 / 3; ++i)  // up to 56 degrees: beyond, all are mirrors
             for (int c = 0; c < 3; ++c) largest = std::max(largest, scale_of[static_cast<std::size_t>(i)][c]);
         for (int row = 0; row < kAngles; ++row)
             for (int column = 0; column < kThicknesses; ++column)

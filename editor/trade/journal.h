@@ -19,8 +19,8 @@ std::string release_version();    ///< Rowland's version number
 /// killed, at most the last line is incomplete; it is cut off when the file is opened again.
 class Journal {
  public:
-    /// Reads the file, or creates it and its folder. Throws Error (input) if a line other than the last is no entry or
-    /// another process has the file open, and Error (system) if it cannot be opened.
+    /// Reads the file, or creates it and its folder. Throws Error (input) if a complete line is no entry or another
+    /// process has the file open, and Error (system) if it cannot be opened.
     explicit Journal(std::filesystem::path path);
 
     /// The value of a key; null if there is none.

@@ -19,6 +19,7 @@ uniform float pitch_nm;
 uniform vec3 mirror_weight;
 uniform vec3 base_weight;
 
+// XYZ that order i adds for light `rgb`, at the path difference `path_nm` between neighbouring grooves.
 vec3 order_xyz(int i, float path_nm, vec3 rgb) {
     float wavelength_nm = path_nm / orders[i];
     if (wavelength_nm < 380.0 || wavelength_nm > 780.0) return vec3(0.0);

@@ -161,7 +161,7 @@ void CompareCommand::run() const {
     if (error.flip) write_results(fmt::format("hdr_flip,{:.6g}\n", *error.flip));
 }
 
-/// As a shell would take it.
+/// The arguments in one line, quoted where they contain spaces or common special characters of the shell.
 std::string command_line(std::span<char*> arguments) {
     std::string text;
     for (const std::string argument : arguments) {

@@ -26,7 +26,7 @@ struct MethodError {
     double relative_rms = 0.0;     ///< PHYSICS §1
     double largest = 0.0;          ///< largest ‖ΔXYZ‖ over the largest ‖XYZ‖ of the reference
     double dark_absolute = 0.0;    ///< mean |ΔY| of the dark points over the mean Y of all; 0 if no point is dark
-    double median_delta_e = 0.0;   ///< CIEDE2000 on the display, both exposed for the reference
+    double median_delta_e = 0.0;   ///< CIEDE2000 of display values, both exposed for the reference
     double high_delta_e = 0.0;     ///< its 95th percentile
     std::optional<double> flip{};  ///< of pictures: mean_hdr_flip()
 };
@@ -42,7 +42,7 @@ inline constexpr std::array<std::pair<const char*, double MethodError::*>, 5> kE
 /// A point is dark if its Y in the reference is below this fraction of the mean Y.
 inline constexpr double kDark = 0.2;
 
-/// The spans are of one length, one value per point.
+/// The error of `radiance` against `reference`: XYZ of the same points, so of equal length.
 MethodError compare(std::span<const glm::dvec3> radiance, std::span<const glm::dvec3> reference);
 
 /// compare() of a picture, with "flip".

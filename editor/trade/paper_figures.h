@@ -26,7 +26,8 @@ struct Figure2 {
 Figure2 figure_2(const diffraction::Grating& grating);
 
 /// The figures of Lindsay & Agu 2006 with this material, as the report's script reads them: "figure_2".
-/// With `gpu`, and for the flat lobe, also what is drawn on frames of `size` pixels:
+/// With `gpu`, for a flat lobe without a lattice, a cover or transmission, also what is drawn in frames of `size`
+/// pixels:
 /// - "figure_3": frames per second against the number of lights, light by light and by SH
 /// - "figure_6": pictures of one and of several lights, light by light and by SH
 /// - "rates": the frame rates of section 5 on the disc of 25 000 vertices

@@ -73,7 +73,8 @@ nlohmann::ordered_json representation_names() {
     return names;
 }
 
-/// A row of the sweep's table, with "memory": its tables and the disc's light; and "paper" if it is the paper's.
+/// A row of the sweep's table, with "memory" (bytes of its tables and of the light at the disc's vertices), and "paper"
+/// if it is the paper's setting.
 nlohmann::ordered_json panel_row(const SweepResults& results, const ErrorRow& error) {
     const CostRow& cost = cost_of(results, error);
     nlohmann::ordered_json row = sweep_row(results, error);
@@ -90,8 +91,8 @@ void mark_front(const char* cost, const char* mark, nlohmann::ordered_json& rows
     for (const std::size_t i : pareto_front(points)) rows[i][mark] = true;
 }
 
-/// The material for the page in a browser, without "quality", with the theory that it has here; null if it names
-/// another file.
+/// The material for the page in a browser, without "quality", with the theory that it has here; null if its
+/// efficiencies come from a table.
 nlohmann::json browser_material(const std::filesystem::path& path) {
     nlohmann::json json = diffraction::load_material_json(path);
     const diffraction::Material material = diffraction::parse_material(json, path.string());

@@ -45,7 +45,7 @@ std::vector<float> orders_other_than_0(const diffraction::Grating& grating) {
     return orders;
 }
 
-/// ½ d/|m| η_m cmf E: the XYZ that a light of irradiance 1, normal to the surface, adds (PHYSICS §4).
+/// ½ d/|m| η_m cmf E: the XYZ that a light adds whose irradiance on the surface is 1 (PHYSICS §4).
 gpu::Texture colour_rows(const diffraction::Grating& grating, std::span<const float> orders,
                          const colour::LightSpectra& spectra) {
     std::vector<glm::vec4> texels;

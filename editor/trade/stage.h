@@ -32,8 +32,8 @@ namespace rowland::trade {
 /// each light and order m, a pixel looks up the colour of the wavelength d u/m.
 class LightLoop {
  public:
-    /// Needs a current context. `xyz_to_working`: the renderer's. Throws Error (input) for a lobe that is not flat, and
-    /// for fewer than kManyGrooves grooves.
+    /// Needs a current context. `xyz_to_working`: the renderer's. Throws Error (input) for a lobe that is not flat, a
+    /// lattice, a cover, transmission, fewer than kManyGrooves grooves, and more than 64 orders other than 0.
     LightLoop(const diffraction::Grating& grating, const colour::LightSpectra& spectra,
               const glm::dmat3& xyz_to_working);
 
@@ -87,8 +87,8 @@ class Stage {
     void show_light_loop(std::shared_ptr<const LightLoop> loop);
     const glm::dmat3& xyz_to_working() const { return xyz_to_working_; }
 
-    /// Draws a frame and waits for it. Milliseconds. `effects`: with bloom, automatic exposure, vignette, display
-    /// transform and dither.
+    /// Draws a frame, waits until it is finished and returns its time, milliseconds. `effects`: with bloom, automatic
+    /// exposure, vignette, display transform and dither.
     double draw(bool effects = false);
     /// A frame through the display transform alone: RGB, rows from the top.
     std::vector<std::uint8_t> picture(float exposure_stops);
@@ -127,6 +127,7 @@ struct FrameTime {
 /// Times frames of the stage's disc under one probe, in its own headless context.
 class FrameTimer {
  public:
+    /// `probe` must outlive it.
     FrameTimer(const lighting::ProbeImage& probe, glm::ivec2 size);
 
     FrameTime time(const diffraction::CookedMaterial& material, int key_lights);

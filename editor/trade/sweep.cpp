@@ -25,13 +25,13 @@ namespace {
 
 constexpr std::uint64_t kLargestProbe = std::uint64_t{1} << 31;
 constexpr int kProjectedBands = 16;         ///< the most that a setting takes
-constexpr std::size_t kReferencePart = 60;  ///< points that are lost if the program is killed
+constexpr std::size_t kReferencePart = 60;  ///< at most so many points are lost if the program is killed
 
 std::string hash_of_file(const std::filesystem::path& path, std::uint64_t largest, const std::string& with) {
     return Hasher().bytes(read_file(path, largest)).text(with).digest().hex();
 }
 
-/// Of the material without "quality", which the setting replaces; of its illuminant; and of the files that it names.
+/// Covers the material without "quality", which the setting replaces, its illuminant, and the files that it names.
 std::string material_hash(nlohmann::json json, const std::filesystem::path& path) {
     std::string illuminant;
     if (json.contains("quality")) illuminant = json["quality"].value("illuminant", "");
@@ -87,13 +87,13 @@ std::vector<std::string> stems(const std::vector<std::filesystem::path>& paths) 
     return names;
 }
 
-/// A planar map is measured on flat surfaces only: on curved ones its stand-in shades, which is another setting.
+/// A planar map is measured on flat surfaces only: on curved ones another representation is drawn instead.
 bool applies(const diffraction::Method& setting, const FrameSet& set) {
     return !info(setting).needs_flat_surface ||
            std::ranges::any_of(set.surfaces, [](const auto& surface) { return is_flat(surface); });
 }
 
-/// Key of times: a window does not change the time of a frame.
+/// For keys of times: a window does not change the time of a frame.
 diffraction::Method without_window(diffraction::Method setting) {
     setting.window = math::SphericalWindow::None;
     return setting;

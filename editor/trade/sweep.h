@@ -68,11 +68,12 @@ class Sweep {
 
     SweepResults run();
 
-    /// A set under a probe, with the reference of a material. The reference stays valid.
+    /// A set under a probe, with the ground truth of a material. The returned object lives as long as the sweep.
     const diffraction::MeasuredScene& scene(std::size_t material, std::size_t probe, const FrameSet& set);
-    /// Relative RMS of the reference with scalar theory's efficiencies from that with rigorous theory's, whichever the
-    /// material has; nullopt if rigorous theory does not know the grating.
+    /// Relative RMS error of scalar theory against rigorous theory, both in the reference, whichever theory the
+    /// material names; nullopt if rigorous theory does not cover the grating.
     std::optional<double> theory_error(std::size_t material, std::size_t probe, const FrameSet& set);
+    /// The material baked with a setting.
     diffraction::CookedMaterial cook(std::size_t material, const diffraction::Method& setting) const;
     const PictureFrames& picture_frames() const { return picture_; }
     const lighting::ProbeImage& probe(std::size_t i) const { return probes_.at(i).image; }

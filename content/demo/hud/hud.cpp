@@ -103,7 +103,7 @@ std::optional<Hud::Pointed> Hud::pointed() const {
     return Pointed{entity, *hit};
 }
 
-/// Of the grating under the cursor, else of all.
+/// Changes the look, or its detail, of the grating under the cursor, else of all gratings.
 void Hud::choose_look(bool detail) {
     Comparison& comparison = session_.comparison();
     const Side side = side_of_pointer();

@@ -21,8 +21,7 @@ namespace rowland::demo {
 /// session by events, as keys do, so that recordings contain what panels do.
 class Hud {
  public:
-    /// Panels are closed at first. A context must be current. `frame_times` must
-    /// outlive it.
+    /// Panels are closed at first. A context must be current. `options`, `session` and `frame_times` must outlive it.
     Hud(const Options& options, Session& session, const platform::FrameTimes& frame_times, glm::ivec2 window,
         float scale);
 
@@ -34,7 +33,7 @@ class Hud {
     bool perform(Action action);
     /// Builds all windows from the session's present state.
     void build();
-    /// Over the picture, in the window's own framebuffer.
+    /// Draws the windows over the picture, in the window's own framebuffer.
     void draw_in_window();
 
  private:
@@ -65,10 +64,10 @@ class Hud {
     std::vector<PlayEvent> events_;
     PixelMeter meter_;
     ReferencePicture reference_picture_;
-    bool reference_ = false;  ///< right of a wipe's line
+    bool reference_ = false;  ///< show the reference right of a wipe's line
     std::optional<PixelTarget> target_;
     ui::MessageList messages_;
-    bool wiped_ = false;  ///< in the last frame
+    bool wiped_ = false;  ///< the last frame had a wipe
     bool panels_ = false;
     bool hints_ = true;  ///< also before the panels were first opened
     bool help_ = false;

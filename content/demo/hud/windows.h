@@ -25,8 +25,8 @@ struct PixelTarget {
 /// Draws the error of the pixel under the cursor; without a target, a hint. Returns whether "write" was pressed.
 bool pixel_window(const PixelTarget* target, const PixelMeter& meter, const glm::dmat3& xyz_to_working);
 
-/// Draws the line between two representations, at `line` of the width, and their names beside it. Returns the line's
-/// new position while it is dragged, else nullopt.
+/// Draws the line between two representations, at the fraction `line` of the width, and their names beside it. Returns
+/// the line's new position, 0 to 1, while it is dragged, else nullopt.
 std::optional<double> wipe_handle(float line, const std::string& left, const std::string& right);
 
 /// Draws a line at the bottom with the most important keys.

@@ -51,7 +51,7 @@ std::vector<ecs::Entity> Comparison::gratings() {
         .each([&](ecs::Entity entity, const DiffractionSurface&, const render::MeshInstance&) {
             found.push_back(entity);
         });
-    // By creation, as a wipe reorders the world's components.
+    // A wipe reorders the world's components.
     std::ranges::sort(found, {}, [](ecs::Entity entity) { return entity.index; });
     return found;
 }

@@ -33,10 +33,10 @@ class Comparison {
     bool is_grating(ecs::Entity entity);
     bool is_copy(ecs::Entity entity);
     const Look& look(ecs::Entity grating, Side side);
-    /// A look that does not suit the object becomes its own look.
+    /// A look that does not suit the object is replaced by the object's own look.
     void set_look(ecs::Entity grating, Side side, const Look& look);
     void set_look_of_all(Side side, const Look& look);
-    /// Of an object, for suitable_looks().
+    /// What decides which looks suit an object.
     LookSubject subject(ecs::Entity grating);
     /// The material that an object shows on a side; the last one while a new one is baked.
     GpuMaterialPointer shown(ecs::Entity grating, Side side);
@@ -44,6 +44,7 @@ class Comparison {
     /// Names the representation that draws an object on a side: "arc (cooked)", "spikes, fine", or, where its mesh
     /// forces another than the material has, "arc in place of planar".
     std::string title(ecs::Entity grating, Side side);
+    /// The object's own material.
     GpuMaterialPointer own(ecs::Entity grating);
     /// A picture (as for GpuPicture) that all gratings show right of the line in place of their looks; null: none.
     /// Gratings whose grooves vary keep their looks.

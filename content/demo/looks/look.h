@@ -17,7 +17,7 @@ namespace rowland::demo {
 enum class Detail { Coarse, Medium, Fine };
 const char* detail_name(Detail detail);
 
-/// A representation to compare a grating in.
+/// The representation that draws a grating, and its level of detail.
 struct Look {
     std::string representation;  ///< its name in material files; empty: the material's own
     Detail detail = Detail::Medium;
@@ -43,15 +43,15 @@ std::optional<diffraction::Material> apply_look(const LookSubject& subject, cons
 /// The material's own look, then all that suit the object, in one detail.
 std::vector<Look> suitable_looks(const LookSubject& subject, Detail detail);
 
-/// The one after `look` among suitable_looks() its detail, the first after the last.
+/// The look after `look` among the suitable_looks() of its detail; after the last one, the first.
 Look next_representation(const LookSubject& subject, const Look& look);
 /// The next detail of the same representation; coarse after fine.
 Look next_detail(const Look& look);
 
 using GpuMaterialPointer = std::shared_ptr<const diffraction::GpuMaterial>;
 
-/// Materials in other looks than their own. Each is baked in the background when it is first asked for, one after the
-/// other, and kept as long as the material it is made from. Needs the context that was current at construction.
+/// Materials in other looks than their own. Each is baked in the background when it is first asked for, one at a time,
+/// and kept as long as the material it is made from. Needs the context that was current at construction.
 class Variants {
  public:
     /// `xyz_to_working` as the renderer's.
@@ -62,7 +62,8 @@ class Variants {
     GpuMaterialPointer find_or_bake(const GpuMaterialPointer& own,
                                     const std::shared_ptr<const diffraction::GrooveMap>& grooves, bool flat,
                                     const Look& look);
-    /// To be called once per frame: uploads what was baked, starts the next bake, and drops unused variants.
+    /// To be called once per frame: uploads what was baked, starts the next bake, and drops variants of materials that
+    /// no longer exist.
     void poll();
     bool baking() const;
     const glm::dmat3& xyz_to_working() const { return xyz_to_working_; }

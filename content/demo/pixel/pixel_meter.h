@@ -16,9 +16,9 @@ namespace rowland::demo {
 
 using lighting::FullResolutionProbe;
 
-/// The whole probe of an image file (`mapping` "equirect" or "angular"), or of a recipe. For a cooked probe, that of
-/// the recipe of its name in `recipes`, or in the folder "recipes" beside it. Throws Error (input), also if there is
-/// none.
+/// The whole probe of an image file (`mapping` "equirect" or "angular") or of a recipe. A cooked probe is replaced by
+/// the recipe of the same name in `recipes`, or in the folder "recipes" beside it. Throws Error (input), also if there
+/// is no such recipe.
 FullResolutionProbe load_full_resolution_probe(const std::filesystem::path& path, const std::string& mapping,
                                                const std::filesystem::path& recipes);
 
@@ -37,7 +37,7 @@ struct PixelQuery {
     std::shared_ptr<const diffraction::CookedMaterial> cooked;
     diffraction::ShadingPoint frame;
     diffraction::GrooveLayout layout;  ///< of the object
-    /// On tables over harmonics; nullopt: the weakest sufficient one, as the renderer chooses.
+    /// Window on the light of tables over harmonics; nullopt: the weakest sufficient one, as the renderer chooses.
     std::optional<math::SphericalWindow> window;
     PixelProbe probe;
 
@@ -50,7 +50,7 @@ struct PixelQuery {
 struct PixelReading {
     PixelQuery query;
     math::SphericalWindow window = math::SphericalWindow::None;  ///< that was applied
-    int key_lights = 0;                                          ///< the most that were separated from the probe
+    int key_lights = 0;                                          ///< at most so many were separated from the probe
     diffraction::PointComparison point;
 };
 
@@ -72,7 +72,7 @@ class PixelMeter {
  private:
     struct Lit;
 
-    std::shared_ptr<Lit> lit_;  ///< used by the work only
+    std::shared_ptr<Lit> lit_;  ///< used by the background work only
     std::optional<PixelQuery> wanted_;
     std::string failure_;
     Computed<PixelQuery, PixelReading> reading_;

@@ -36,13 +36,13 @@ struct ReferenceInputs {
 
 namespace {
 
-constexpr int kCoarsest = 8;       ///< texels between those of the first pass
+constexpr int kCoarsest = 8;       ///< step of the first pass, texels
 constexpr std::size_t kBatch = 8;  ///< texels between two checks of the stop token
 constexpr int kFramesToRest = 3;
 constexpr std::chrono::milliseconds kBetweenPublications(50);
 
-/// Fills the square of each coarse texel where no finer pass has computed one. `steps`: of the pass that each texel is
-/// from, 0: none.
+/// Fills the square of each coarse texel where no finer pass has computed one. `steps`: the step of the pass that
+/// computed a texel; 0: none has.
 std::vector<glm::vec4> filled_up(const std::vector<glm::vec4>& xyz, const std::vector<int>& steps, glm::ivec2 size) {
     std::vector<glm::vec4> texels = xyz;
     const auto at = [size](int row, int column) {
@@ -69,12 +69,12 @@ ReferenceInputs view_of(ecs::World& world, Comparison& comparison, const scene::
             if (comparison.is_copy(entity)) return;
             view.meshes.push_back({instance.mesh, matrix.matrix});
             const auto* surface = world.find<diffraction::DiffractionSurface>(entity);
-            const bool known = surface != nullptr && !surface->grooves;
-            view.gratings.push_back(known ? std::optional(PlacedGrating{.mesh = instance.mesh,
-                                                                        .to_world = matrix.matrix,
-                                                                        .groove_rotation = surface->groove_rotation})
-                                          : std::nullopt);
-            view.materials.push_back(known ? comparison.own(entity)->cooked() : nullptr);
+            const bool measured = surface != nullptr && !surface->grooves;
+            view.gratings.push_back(measured ? std::optional(PlacedGrating{.mesh = instance.mesh,
+                                                                           .to_world = matrix.matrix,
+                                                                           .groove_rotation = surface->groove_rotation})
+                                             : std::nullopt);
+            view.materials.push_back(measured ? comparison.own(entity)->cooked() : nullptr);
         });
     return view;
 }
@@ -89,7 +89,7 @@ struct Texel {
     diffraction::ShadingPoint frame;
 };
 
-/// The texels of one mesh in one pass, without those of coarser passes.
+/// The texels of one mesh in one pass, without those that coarser passes computed.
 std::vector<Texel> texels_of_pass(const ReferenceInputs& view, const Points& points, int step, std::size_t mesh,
                                   const Columns& columns) {
     std::vector<Texel> texels;
@@ -164,7 +164,7 @@ class ReferenceWork {
     FullResolutionProbe probe_;
     Points points_;
     std::vector<glm::vec4> xyz_;
-    std::vector<int> steps_;  ///< of the pass that each texel is from, 0: none
+    std::vector<int> steps_;  ///< as for filled_up()
     std::size_t all_;
     std::size_t done_ = 0;
     std::chrono::steady_clock::time_point published_;

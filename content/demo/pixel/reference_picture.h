@@ -31,8 +31,8 @@ struct ReferenceTexels {
 /// from 8 texels to 1, right of the wipe's line first. Any motion cancels it; it starts again when nothing moves.
 class ReferencePicture {
  public:
-    /// To be called once per frame, after world matrices were updated. `pixels`: of the picture. Passes the
-    /// texels so far to `comparison`, or removes them if the view has changed.
+    /// To be called once per frame, after world matrices were updated. `pixels`: the picture's size. Passes the texels
+    /// so far to `comparison`, or removes them if the view has changed.
     void update(ecs::World& world, Comparison& comparison, const scene::Camera& camera, glm::ivec2 pixels,
                 const PixelProbe& probe);
     /// Cancels the computation and removes the picture.

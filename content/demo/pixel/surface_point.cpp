@@ -50,9 +50,10 @@ std::string frames_csv(const diffraction::ShadingPoint& frame) {
 
 namespace {
 
-class Picture {
+/// The nearest hit of the ray through each texel's centre.
+class HitBuffer {
  public:
-    Picture(const scene::Camera& camera, glm::ivec2 size)
+    HitBuffer(const scene::Camera& camera, glm::ivec2 size)
         : camera_(camera),
           size_(size),
           to_clip_(camera.projection(static_cast<float>(size.x) / static_cast<float>(size.y)) * camera.view()),
@@ -134,9 +135,9 @@ class Picture {
 
 std::vector<std::optional<VisiblePoint>> visible_points(const scene::Camera& camera, glm::ivec2 size,
                                                         const std::vector<PlacedMesh>& meshes) {
-    Picture picture(camera, size);
-    for (std::size_t i = 0; i < meshes.size(); ++i) picture.draw(meshes[i], i);
-    return picture.take();
+    HitBuffer hits(camera, size);
+    for (std::size_t i = 0; i < meshes.size(); ++i) hits.draw(meshes[i], i);
+    return hits.take();
 }
 
 }  // namespace rowland::demo

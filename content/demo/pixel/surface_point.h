@@ -23,7 +23,7 @@ struct PlacedGrating {
     float groove_rotation = 0.0F;  ///< as in DiffractionSurface
 };
 
-/// Of an entity; nullopt if it is no grating.
+/// The grating of an entity; nullopt if it has none.
 std::optional<PlacedGrating> placed_grating(ecs::World& world, ecs::Entity grating);
 
 /// The shading frame of a grating where a ray from `eye` hits it: direction to the eye, interpolated normal and grating

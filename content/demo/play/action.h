@@ -63,7 +63,7 @@ std::vector<HelpLine> help_lines();
 /// The lines as text in two columns.
 std::string help_text();
 
-/// What the user sets to a value, say with a slider; an Action only steps to the next one.
+/// What the user sets to a value, such as with a slider; an Action only toggles it or steps to the next value.
 enum class Setting {
     Exposure,
     Bloom,
@@ -79,7 +79,7 @@ enum class Setting {
     RightLook
 };
 
-/// The name and values of a setting. One without a range is a text.
+/// The name and values of a setting. A setting without a range is a text.
 struct SettingKind {
     Setting setting;
     const char* name;  ///< as recordings write it

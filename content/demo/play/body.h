@@ -34,7 +34,7 @@ inline constexpr double kFastestSpin = 40.0;
 
 /// What the play has changed of a body. Vectors and rotations are in the axes of its node's parent.
 struct BodyState {
-    glm::dquat turned{1.0, 0.0, 0.0, 0.0};  ///< about its centre, from rest
+    glm::dquat turned{1.0, 0.0, 0.0, 0.0};  ///< rotation about its centre, from rest
     glm::dvec3 spin{0.0};                   ///< angular velocity, radians per second
     double idle_s = 0.0;                    ///< time for which it has turned by itself
     bool touched = false;                   ///< was grabbed: it no longer turns by itself
@@ -53,7 +53,7 @@ struct Body {
     float radius = 0.0F;                 ///< of its bounding sphere about `centre`, metres in the world
     float clearance = 0.0F;              ///< how far it must be lifted to turn freely, metres in the world
     std::optional<glm::vec3> spin_axis;  ///< unit, in the node's space; none: +Y when pushed, and no idle turning
-    double idle_spin = 0.0;              ///< by which it turns about its axis until touched, radians per second
+    double idle_spin = 0.0;              ///< angular velocity about its axis until touched, radians per second
     bool grab = false;                   ///< may be grabbed
     BodyState state;
 };
@@ -69,7 +69,7 @@ void turn(Body& body, const glm::dquat& rotation);
 /// One step of `seconds`: idle turning, and the spin of a thrown body, whose decay is solved exactly, so that the
 /// result hardly depends on the step's length.
 void step(Body& body, double seconds);
-/// Rises or comes down for `seconds`, also while the play is paused.
+/// Raises or lowers it for `seconds`; called also while the play is paused.
 void step_lift(Body& body, double seconds);
 
 /// The present transform of its node. `up`: the world's +Y in the axes and lengths of the node's parent.

@@ -9,7 +9,7 @@ namespace rowland::demo {
 
 namespace {
 
-/// Crosses the view in about four seconds.
+/// Metres per second: from eye to target in two seconds, within limits.
 float walking_speed(const scene::Camera& start) {
     constexpr float kDistancesPerSecond = 0.5F;
     return std::clamp(kDistancesPerSecond * glm::length(start.target - start.eye), 0.02F, 2.0F);

@@ -19,7 +19,7 @@ class CameraControl {
     /// Returns to orbiting, about the point `distance` metres in front of the eye.
     void stop_walking(float distance);
     void reset();
-    /// Puts the walker, who stands still, back to an eye of camera().
+    /// Moves a walking camera to `eye`, in the axes of camera(), without velocity.
     void stop_at(const glm::vec3& eye);
 
     /// One step of `seconds`. `drags`: dragging moves the camera, not an object.

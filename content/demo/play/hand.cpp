@@ -12,8 +12,8 @@ namespace rowland::demo {
 namespace {
 
 constexpr double kVelocityTimeConstant_s = 0.05;  ///< mice report less often than we step
-constexpr double kMinBallRadius_px = 40;          ///< small objects must not spin fast at a touch
-constexpr double kWheelPush = 3.0;                ///< radians per second a notch
+constexpr double kMinBallRadius_px = 40;          ///< so that a short drag does not spin a small object fast
+constexpr double kWheelPush = 3.0;                ///< radians per second, per notch
 
 /// A node's rotation to the world, without the scales.
 glm::dquat rotation_to_world(ecs::World& world, ecs::Entity node) {

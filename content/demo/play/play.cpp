@@ -65,7 +65,7 @@ constexpr double kStep_s = 1.0 / kStepsPerSecond;
 constexpr double kSlowMotion = 0.1;
 constexpr int kStepsPerFrameAdvance = kStepsPerSecond / 30;
 constexpr double kEnvironmentTurn = 5.0 / 180.0 * std::numbers::pi;
-// A held key acts again after 0.4 s, and from then on ten times a second.
+// A key held for more than 0.4 s acts ten times a second, first at 0.5 s.
 constexpr int kStepsToRepeat = kStepsPerSecond * 2 / 5;
 constexpr int kStepsBetweenRepeats = kStepsPerSecond / 10;
 constexpr auto kPadGrab = GamepadButton::South;

@@ -64,7 +64,7 @@ class Play {
     Play(ecs::World& world, Toys toys, const scene::Camera& start, const scene::Bounds& room, glm::ivec2 window);
 
     void set_animation(Animate animate);
-    /// After the scene was reloaded: bodies keep the state of the earlier ones of the same name.
+    /// Replaces the toys after the scene was reloaded. Bodies keep the state of earlier bodies of the same name.
     void set_toys(Toys toys);
 
     /// Moves all bodies to their rest pose until the next step, for measuring the scene itself.
@@ -80,7 +80,7 @@ class Play {
     /// Carries out an action of the play itself; false if it is the caller's.
     bool perform(Action action);
 
-    /// In the world that is drawn, where the root and the camera with it turn against the environment.
+    /// In world axes: the root, and the camera with it, is rotated against the environment.
     scene::Camera camera() const;
     bool walking() const { return camera_.walking(); }
     bool paused() const { return paused_; }
@@ -92,7 +92,7 @@ class Play {
     const std::vector<Body>& bodies() const { return toys_.bodies; }
     std::optional<std::size_t> held_body() const;
     const PlayerLights& lights() const { return lights_; }
-    /// A short hash of the pose of every object, light and the camera, to the bit, and of time and steps.
+    /// A short hash, to the bit, of the poses of all bodies, added lights and the camera, of spins, time and steps.
     std::string fingerprint() const;
     ecs::World& world() { return world_; }
     const Toys& toys() const { return toys_; }

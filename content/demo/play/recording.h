@@ -32,7 +32,7 @@ class Recorder {
     void add(std::uint64_t step, std::span<const PlayEvent> events);
     /// Writes all lines so far. Throws Error (system) if the disk is full.
     void flush();
-    /// Writes the last line: the number of steps.
+    /// Writes the last line, the number of steps. Throws as flush().
     void finish(std::uint64_t steps);
 
  private:
@@ -50,7 +50,7 @@ struct Recording {
     std::vector<Step> steps;       ///< those with events, in order
     std::uint64_t step_count = 0;  ///< of the whole play
 
-    /// Of one step.
+    /// The events of one step; empty if it has none.
     std::span<const PlayEvent> events_at(std::uint64_t step) const;
 };
 
@@ -71,13 +71,13 @@ class PlayClock {
     /// there is one.
     void live(Play& play, std::chrono::nanoseconds frame, std::vector<PlayEvent> events, Recorder* recorder);
 
-    /// Plays a frame of that length from a recording, which began with the play; false once it is over.
+    /// Advances the play, which began with the recording, by a frame of that length; false once the recording is over.
     bool replay(Play& play, std::chrono::nanoseconds frame, const Recording& recording);
 
  private:
     bool is_unchanged_pad(const PlayEvent& event);
 
-    // One frame per second is the slowest at which a drag keeps its speed.
+    // Longer frames are cut to a second: a drag keeps its speed down to one frame per second.
     platform::FixedStep pace_{kStepsPerSecond, std::chrono::seconds(1)};
     std::vector<PlayEvent> waiting_;
     platform::GamepadEvent pad_;  ///< as last read
