@@ -15,6 +15,7 @@
 #include "engine/core/error.h"
 #include "modules/diffraction/asset/material.h"
 #include "modules/diffraction/representations/direct/direct.h"
+#include "modules/diffraction/rigorous/relief.h"
 
 namespace rowland::web {
 
@@ -55,8 +56,8 @@ std::shared_ptr<const diffraction::EfficiencyGrid> efficiency_grid(std::span<con
     return grid;
 }
 
-/// What solve() of solve.cpp takes: the profile's index, 0 where nothing is left to solve, pitch, depth, duty, index
-/// over the grooves and metal, or a sheet's index and -1, its reflectance.
+/// What solve() of solve.cpp takes: the shape's index in ReliefShape plus 1, 0 where nothing is left to solve, pitch,
+/// depth, duty, index over the grooves and metal, or a sheet's index and -1, its reflectance.
 void append_relief(const Material& material, Numbers& numbers) {
     const diffraction::Grating& grating = material.grating();
     glm::vec2 shape(0.0F);
@@ -66,7 +67,8 @@ void append_relief(const Material& material, Numbers& numbers) {
             if constexpr (requires { profile.duty; }) shape.y = static_cast<float>(profile.duty);
         },
         grating.profile);
-    append(static_cast<float>(material.unsolved ? grating.profile.index() : 0), numbers);
+    const auto known = diffraction::relief_shape(grating.profile);
+    append(static_cast<float>(material.unsolved && known ? known->index() + 1 : 0), numbers);
     append(static_cast<float>(grating.pitch_nm), numbers);
     append(shape, numbers);
     const auto& sheet = grating.transmission;
