@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <string_view>
 #include <type_traits>
 
 #include "engine/core/error.h"
@@ -64,7 +65,10 @@ std::optional<Refusal> rigorous_refusal(const Grating& grating) {
     constexpr const char* kReliefs = "lamellar, sinusoidal or blazed grooves";
     if (grating.lattice) return with("a lattice", kReliefs);
     const std::optional<ReliefShape> shape = relief_shape(grating.profile);
-    if (!shape) return with("a profile without a relief", kReliefs);
+    if (!shape) {
+        const std::string_view name = std::visit([](const auto& other) { return other.kName; }, grating.profile);
+        return with(fmt::format("profile \"{}\"", name), kReliefs);
+    }
     if (grating.side_reflectance) return with("the reflected side of a sheet", "grooves of a metal");
     if (!grating.metal && !grating.transmission)
         return Refusal{"/grating/theory", "\"rigorous\" without a metal",
