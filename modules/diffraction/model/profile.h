@@ -77,11 +77,11 @@ using Profile = std::variant<SlitProfile, LamellarProfile, SinusoidalProfile, Bl
 /// One member of a profile in a material file: a number greater than 0, or the name of a file.
 struct ProfileMember {
     const char* key = "";       ///< in the file; profiles may have a key in common, which then means the same
-    const char* label = "";     ///< in a user interface
+    const char* label = "";     ///< in a user interface; with the unit the title in the schema
     const char* unit = "";      ///< "" for a pure number
     double less_than = 0.0;     ///< values lie in (0, less_than); infinity: no upper limit
     bool within_pitch = false;  ///< values lie in (0, pitch_nm] instead
-    double initial = 0.0;       ///< when a user chooses the profile
+    double initial = 0.0;       ///< when a user chooses the profile; the schema's default
     const char* help = "";
     const char* source = "";  ///< of the formula
     /// Where the number is, of a Profile that holds the profile described. Null: the member names the file that the
