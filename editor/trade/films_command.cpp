@@ -169,7 +169,7 @@ void add_films_command(CLI::App& program) {
     command
         ->add_option(
             "--probe", options->probes,
-            "Also prints error and cost of four methods on rough films under this light; may be given several\n"
+            "Also prints error and cost of six methods on rough films under this light; may be given several\n"
             "times. FILE:angular and FILE:equirect name its mapping")
         ->type_name("FILE[:MAPPING]");
     command->callback([options] { show_films(*options); });

@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <filesystem>
 #include <iterator>
 #include <memory>
@@ -161,12 +162,22 @@ void CompareCommand::run() const {
     if (error.flip) write_results(fmt::format("hdr_flip,{:.6g}\n", *error.flip));
 }
 
-/// The arguments in one line, quoted where they contain spaces or common special characters of the shell.
+/// The arguments in one line, quoted for a shell.
 std::string command_line(std::span<char*> arguments) {
     std::string text;
     for (const std::string argument : arguments) {
-        const bool quoted = argument.empty() || argument.find_first_of(" \t\n\"$&|;<>()*?") != std::string::npos;
-        text += fmt::format("{}{}", text.empty() ? "" : " ", quoted ? "'" + argument + "'" : argument);
+        const auto is_plain = [](char c) {
+            return std::isalnum(static_cast<unsigned char>(c)) ||
+                   std::string_view("-_./=:,+@%").find(c) != std::string_view::npos;
+        };
+        if (!text.empty()) text += ' ';
+        if (!argument.empty() && std::ranges::all_of(argument, is_plain)) {
+            text += argument;
+            continue;
+        }
+        text += '\'';
+        for (const char c : argument) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
+        text += '\'';
     }
     return valid_utf8(text);
 }

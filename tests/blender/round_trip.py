@@ -61,7 +61,7 @@ class DrawnLayout:
     def __init__(self):
         self.shown = []
 
-    def prop(self, fields, name):
+    def prop(self, fields, name, text=None):
         getattr(fields, name)
         self.shown.append(name)
 
@@ -100,6 +100,21 @@ def check_lattice(material):
     material.rowland.orders = "8"
     expect(material.rowland.object()["grating"]["profile"]["width_nm"], 20000, "the opening's width")
     expect(material.rowland.object()["grating"]["orders"], 8, "a lattice's orders")
+
+
+def check_profiles(material):
+    """Whatever profiles the schema has."""
+    from rowland_diffraction import grating
+
+    preset = material.rowland.object()
+    for kind, members in grating.PROFILES.items():
+        material.rowland.profile = kind
+        expect(list(material.rowland.object()["grating"]["profile"]), ["type", *members], f"members of {kind}")
+        expect([name for name in members if name not in draw_panel(material)], [], f"fields of {kind}")
+        given = material.rowland.object()["grating"]["profile"]
+        expect(min((v for v in given.values() if not isinstance(v, str)), default=1) > 0, True, f"numbers of {kind}")
+        expect(given.get("width_nm", 0) < 740, True, "a slit within the pitch of a DVD")
+    material.rowland.replace(preset)
 
 
 def check_orders(fields):
@@ -250,6 +265,7 @@ check_lattice(add_disc("Screen"))
 disc = add_disc("Disc")
 give_preset(disc, "dvd")
 expect("pitch_nm" in draw_panel(disc), True, "a grating of grooves is shown")
+check_profiles(disc)
 check_orders(disc.rowland)
 export("screen.glb")
 check_box_of_other_lengths()

@@ -27,16 +27,11 @@
 namespace rowland::diffraction {
 
 inline void showValue(const Grating& grating, std::ostream& out) {
-    const char* profiles[] = {"slit", "lamellar", "sinusoidal", "blazed", "table"};
-    out << fmt::format("{{pitch {:.17g} nm, {} grooves, {} ", grating.pitch_nm, grating.grooves,
-                       profiles[grating.profile.index()]);
-    if (const auto* slit = std::get_if<SlitProfile>(&grating.profile)) out << fmt::format("{:.17g}", slit->width_nm);
-    if (const auto* lamellar = std::get_if<LamellarProfile>(&grating.profile))
-        out << fmt::format("{:.17g} {:.17g}", lamellar->duty, lamellar->depth_nm);
-    if (const auto* sinus = std::get_if<SinusoidalProfile>(&grating.profile))
-        out << fmt::format("{:.17g}", sinus->depth_nm);
-    if (const auto* blazed = std::get_if<BlazedProfile>(&grating.profile))
-        out << fmt::format("{:.17g}", blazed->depth_nm);
+    const ProfileDescriptor& described = profile_descriptors()[grating.profile.index()];
+    out << fmt::format("{{pitch {:.17g} nm, {} grooves, {}", grating.pitch_nm, grating.grooves, described.name);
+    Profile profile = grating.profile;
+    for (const ProfileMember& member : described.members)
+        if (member.value != nullptr) out << fmt::format(" {:.17g}", member.value(profile));
     if (const auto* gaussian = std::get_if<GaussianLobe>(&grating.lobe))
         out << fmt::format(", sigma {:.17g}", gaussian->sigma);
     if (const auto* pits = std::get_if<PitsLobe>(&grating.lobe))

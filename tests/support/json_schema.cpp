@@ -24,7 +24,7 @@ class Checker {
 
  private:
     bool check_rule(const json& value, const std::string& keyword, const json& rule, const json& schema) const {
-        static const std::set<std::string> annotations = {"$schema", "title", "$defs"};
+        static const std::set<std::string> annotations = {"$schema", "title", "default", "$defs"};
         if (annotations.contains(keyword)) return true;
         if (keyword == "$ref") return check(value, root_.at(json::json_pointer(rule.get<std::string>().substr(1))));
         if (keyword == "type") return has_type(value, rule.get<std::string>());

@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <map>
+#include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -16,6 +19,7 @@
 #include "engine/scene/mesh_recipe.h"
 #include "modules/asset_types.h"
 #include "modules/diffraction/asset/gltf_extension.h"
+#include "modules/diffraction/model/profile.h"
 #include "modules/thin_film/asset/film_material.h"
 #include "tests/support/files.h"
 #include "tests/support/json_schema.h"
@@ -115,6 +119,24 @@ TEST(Schema, IsWhatAParserAsks) {
                              R"({"angle": 1, "type": "many", "parts": [{"size": [1]}]})",
                              R"({"angle": 1, "type": "many", "parts": [], "more": 1})"})
         EXPECT_FALSE(allowed(text)) << text;
+}
+
+/// Blender's add-on makes its fields of them.
+TEST(Schema, HasTitlesAndDefaultsOfTheMembersOfProfiles) {
+    const json whole = schema_of("material");
+    std::map<std::string, json> profiles;
+    for (const json& grating : whole["properties"]["grating"]["oneOf"])
+        for (const json& profile : grating["properties"]["profile"]["oneOf"])
+            profiles[profile["properties"]["type"]["const"]] = profile["properties"];
+    for (const diffraction::ProfileDescriptor& descriptor : diffraction::profile_descriptors())
+        for (const diffraction::ProfileMember& member : descriptor.members) {
+            const json& schema = profiles[std::string(descriptor.name)][member.key];
+            const std::string unit = std::string_view(member.unit).empty() ? "" : " (" + std::string(member.unit) + ")";
+            EXPECT_EQ(schema.value("title", ""), member.label + unit) << descriptor.name;
+            EXPECT_EQ(schema.value("default", 0.0), member.initial) << descriptor.name << " " << member.key;
+            EXPECT_EQ(schema.contains("default"), member.value != nullptr) << descriptor.name << " " << member.key;
+            EXPECT_TRUE(schema.contains("type")) << "its limits stay";
+        }
 }
 
 /// Whatever a material calls its table; its lamp is lamp.csv.

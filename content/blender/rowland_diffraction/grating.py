@@ -14,7 +14,7 @@ METALS = MEMBERS["metal"]["enum"]
 # Members of a grating with grooves of one direction; the other alternative is a lattice.
 GROOVES = next(one["properties"] for one in MEMBERS["grating"]["oneOf"] if "pitch_nm" in one["properties"])
 
-# Each profile's members and their schemas, by the profile's name.
+# Each profile's members and their schemas, by the profile's name. Titles and defaults are those of the inspector.
 PROFILES = {
     profile["properties"]["type"]["const"]: {
         name: member for name, member in profile["properties"].items() if name != "type"
@@ -22,8 +22,7 @@ PROFILES = {
     for profile in GROOVES["profile"]["oneOf"]
 }
 
-# Initial values of the members of profiles; initial lobes, with a representation that draws them on any mesh.
-DEFAULTS = {"width_nm": 500, "duty": 0.5, "depth_nm": 120, "file": ""}
+# Initial lobes, with a representation that draws them on any mesh.
 LOBES = {
     "flat": ("flat", {"representation": "arc", "bands": 8, "rank": 12}),
     "sigma": ({"sigma": 0.1}, {"representation": "streak"}),
@@ -84,10 +83,11 @@ def set_value(grating, path, value):
 
 
 def drop_impossible_theory(grating):
-    """Removes the theory unless the grating is a relief of a metal and its representation is not streak."""
+    """Removes the theory unless the grating is a relief of a metal or of a sheet, and not drawn by streak."""
     grooves = grating.get("grating", {})
     relief = value_at(grooves, ("profile", "type")) in ("lamellar", "sinusoidal", "blazed")
-    if not relief or "metal" not in grating or value_at(grating, ("quality", "representation")) == "streak":
+    solved = relief and ("metal" in grating or "transmission" in grating)
+    if not solved or value_at(grating, ("quality", "representation")) == "streak":
         grooves.pop("theory", None)
 
 
@@ -153,7 +153,9 @@ def set_lobe_kind(grating, kind):
 
 def set_profile_kind(grating, kind):
     old = value_at(grating, ("grating", "profile"), {})
-    members = {name: old.get(name, DEFAULTS.get(name, 1)) for name in PROFILES[kind]}
+    members = {name: old.get(name, member.get("default", "")) for name, member in PROFILES[kind].items()}
+    if kind == "slit" and "width_nm" not in old:  # at most the pitch
+        members["width_nm"] = min(members["width_nm"], value_at(grating, ("grating", "pitch_nm"), 1600) / 2)
     set_value(grating, ("grating", "profile"), {"type": kind, **members})
     if kind == "table":  # its efficiencies include metal and dye
         grating.pop("metal", None)

@@ -10,6 +10,8 @@ from . import grating, properties, rowland_folder
 
 # The fields under each lobe.
 LOBE_FIELDS = {"flat": (), "sigma": ("sigma",), "pits": ("length_nm", "coherent")}
+# In place of the titles of grooves' members.
+LATTICE_TITLES = {"width_nm": "Opening's width (nm)", "depth_nm": "Depth (nm)"}
 
 
 def has_grating(context):
@@ -94,7 +96,9 @@ class ROWLAND_PT_grating(bpy.types.Panel):
             return
         value = fields.object()
         table = False
+        titles = {}
         if grating.is_lattice(value):
+            titles = LATTICE_TITLES
             layout.label(text=grating.cell_text(value))
             names = [*grating.lattice_fields(value), "orders", "groove_rotation"]
         else:
@@ -106,7 +110,7 @@ class ROWLAND_PT_grating(bpy.types.Panel):
         names += [] if fields.transmits else ["covered"] + (["cover_ior"] if fields.covered else [])
         names += ["cover_tint"] if fields.covered and not table else []
         for name in names:
-            layout.prop(fields, name)
+            layout.prop(fields, name, text=titles.get(name))
         if not grating.is_lattice(value):
             layout.template_ID(fields, "groove_image", new="image.new", open="image.open", text="Groove image")
         row = layout.row()

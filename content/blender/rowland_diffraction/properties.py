@@ -49,6 +49,16 @@ def choice(name, values, get, set_, labels=None):
     )
 
 
+def profile_member(name, schema):
+    """A number, or the name of a file."""
+    path = ("grating", "profile", name)
+    if schema["type"] == "number":
+        return number(path, schema["title"], schema, precision=3)
+    return bpy.props.StringProperty(
+        name=schema["title"], subtype="FILE_PATH", get=lambda self: grating.value_at(self.object(), path, ""),
+        set=lambda self, value: self.change(grating.set_value, path, bpy.path.abspath(value)))
+
+
 def update_image(self, _context):
     """Sets the image to non-colour data. Blender then reloads it, so an image with unsaved pixels is not changed."""
     image = self.groove_image
@@ -87,14 +97,7 @@ class RowlandGrating(bpy.types.PropertyGroup):
     profile: choice(
         "Profile", list(grating.PROFILES), lambda o: grating.value_at(o, ("grating", "profile", "type"), "slit"),
         grating.set_profile_kind)
-    width_nm: number(("grating", "profile", "width_nm"), "Width (nm)", MEMBERS["width_nm"])
-    duty: number(("grating", "profile", "duty"), "Duty", MEMBERS["duty"], precision=3)
     height_nm: number(("grating", "profile", "height_nm"), "Opening's height (nm)", MEMBERS["width_nm"])
-    depth_nm: number(("grating", "profile", "depth_nm"), "Depth (nm)", MEMBERS["depth_nm"])
-    file: bpy.props.StringProperty(
-        name="Efficiencies", subtype="FILE_PATH",
-        get=lambda self: grating.value_at(self.object(), ("grating", "profile", "file"), ""),
-        set=lambda self, value: self.change(grating.set_value, ("grating", "profile", "file"), bpy.path.abspath(value)))
     lobe: choice(
         "Lobe", list(grating.LOBES), grating.lobe_kind, grating.set_lobe_kind,
         {"flat": "flat", "sigma": "narrow (sigma)", "pits": "pits"})
@@ -145,3 +148,6 @@ class RowlandGrating(bpy.types.PropertyGroup):
             self.id_data.diffuse_color = (*grating.viewport_colour(new_object), 1.0)
             self.id_data.metallic = 1.0
             self.id_data.roughness = 0.25
+
+
+RowlandGrating.__annotations__.update({name: profile_member(name, schema) for name, schema in MEMBERS.items()})

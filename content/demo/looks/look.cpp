@@ -15,15 +15,17 @@ namespace {
 /// Settings by name, each at coarse, medium and fine detail.
 using SettingsByDetail = std::map<std::string, std::array<int, 3>>;
 
-/// The settings that the detail changes. Others keep their defaults. Every representation has an entry.
+/// The settings that the detail changes. Others keep their defaults, as do all settings of a representation without an
+/// entry.
 const SettingsByDetail& details_of(const std::string& representation) {
     static const std::map<std::string, SettingsByDetail> all{{"spikes", {{"bands", {3, 5, 8}}, {"spikes", {4, 4, 8}}}},
                                                              {"arc", {{"bands", {3, 5, 8}}, {"rank", {4, 8, 16}}}},
-                                                             {"direct", {}},
                                                              {"planar", {{"map_resolution", {32, 128, 256}}}},
                                                              {"circle", {{"map_resolution", {16, 48, 104}}}},
                                                              {"streak", {{"map_resolution", {128, 192, 320}}}}};
-    return all.at(representation);
+    static const SettingsByDetail none;
+    const auto found = all.find(representation);
+    return found != all.end() ? found->second : none;
 }
 
 nlohmann::json settings_of(const Look& look) {

@@ -15,6 +15,7 @@
 #include "engine/core/error.h"
 #include "modules/diffraction/asset/material.h"
 #include "modules/diffraction/representations/direct/direct.h"
+#include "modules/diffraction/rigorous/relief.h"
 
 namespace rowland::web {
 
@@ -55,8 +56,8 @@ std::shared_ptr<const diffraction::EfficiencyGrid> efficiency_grid(std::span<con
     return grid;
 }
 
-/// Appends the arguments of solve() in solve.cpp: the profile's index (0: there is nothing to solve), pitch, depth,
-/// duty, the index over the grooves or of a sheet, the metal or -1, a sheet's reflectance.
+/// Appends the arguments of solve() in solve.cpp: the shape's index in ReliefShape plus 1 (0: there is nothing to
+/// solve), pitch, depth, duty, the index over the grooves or of a sheet, the metal or -1, a sheet's reflectance.
 void append_relief(const Material& material, Numbers& numbers) {
     const diffraction::Grating& grating = material.grating();
     glm::vec2 shape(0.0F);
@@ -66,7 +67,8 @@ void append_relief(const Material& material, Numbers& numbers) {
             if constexpr (requires { profile.duty; }) shape.y = static_cast<float>(profile.duty);
         },
         grating.profile);
-    append(static_cast<float>(material.unsolved ? grating.profile.index() : 0), numbers);
+    const auto known = diffraction::relief_shape(grating.profile);
+    append(static_cast<float>(material.unsolved && known ? known->index() + 1 : 0), numbers);
     append(static_cast<float>(grating.pitch_nm), numbers);
     append(shape, numbers);
     const auto& sheet = grating.transmission;

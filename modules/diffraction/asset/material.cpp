@@ -234,6 +234,14 @@ Efficiencies efficiencies(const Grating& grating, double wavelength_nm) {
     return found;
 }
 
+/// For who makes a user interface of the schema.
+void annotate(JsonReader& reader, const ProfileMember& member) {
+    if (!reader.is_recording_schema()) return;
+    const std::string unit = *member.unit == '\0' ? "" : fmt::format(" ({})", member.unit);
+    const std::string initial = member.value == nullptr ? "" : fmt::format(", \"default\": {}", member.initial);
+    reader.annotate(member.key, fmt::format(R"({{"title": "{}{}"{}}})", member.label, unit, initial));
+}
+
 }  // namespace
 
 Profile parse_profile(JsonReader json, double pitch_nm, const ReadNamed& read) {
@@ -251,6 +259,7 @@ Profile parse_profile(JsonReader json, double pitch_nm, const ReadNamed& read) {
         for (const ProfileMember& member : offered[type]->members) {
             if (member.value == nullptr) {
                 const std::string name = reader.file_name(member.key, "a CSV file of efficiencies");
+                annotate(reader, member);
                 if (reader.is_recording_schema()) return;
                 const NamedText table = read(name);
                 profile = parse_efficiency_csv(table.text, table.file);
@@ -260,6 +269,7 @@ Profile parse_profile(JsonReader json, double pitch_nm, const ReadNamed& read) {
             range.maximum = member.within_pitch ? pitch_nm : member.less_than;
             range.exclusive_maximum = !member.within_pitch && std::isfinite(member.less_than);
             member.value(profile) = reader.number(member.key, range);
+            annotate(reader, member);
         }
     });
     json.finish();

@@ -183,7 +183,7 @@ ProfileMember depth(double initial_nm) {
 }
 
 ProfileDescriptor describe(const SlitProfile& slit) {
-    return {.name = "slit",
+    return {.name = SlitProfile::kName,
             .empty = slit,
             .members = {{.key = "width_nm",
                          .label = "Slit width",
@@ -197,7 +197,7 @@ ProfileDescriptor describe(const SlitProfile& slit) {
 }
 
 ProfileDescriptor describe(const LamellarProfile& lamellar) {
-    return {.name = "lamellar",
+    return {.name = LamellarProfile::kName,
             .empty = lamellar,
             .members = {{.key = "duty",
                          .label = "Duty",
@@ -211,15 +211,15 @@ ProfileDescriptor describe(const LamellarProfile& lamellar) {
 }
 
 ProfileDescriptor describe(const SinusoidalProfile& sinusoidal) {
-    return {.name = "sinusoidal", .empty = sinusoidal, .members = {depth<SinusoidalProfile>(150.0)}};
+    return {.name = SinusoidalProfile::kName, .empty = sinusoidal, .members = {depth<SinusoidalProfile>(150.0)}};
 }
 
 ProfileDescriptor describe(const BlazedProfile& blazed) {
-    return {.name = "blazed", .empty = blazed, .members = {depth<BlazedProfile>(250.0)}};
+    return {.name = BlazedProfile::kName, .empty = blazed, .members = {depth<BlazedProfile>(250.0)}};
 }
 
 ProfileDescriptor describe(const EfficiencyTable& table) {
-    return {.name = "table",
+    return {.name = EfficiencyTable::kName,
             .empty = table,
             .members = {{.key = "file",
                          .label = "Table",

@@ -16,6 +16,8 @@ struct EfficiencySlice {
 
 /// Order efficiencies from a measurement or a rigorous solver; they include the metal (PHYSICS §3).
 struct EfficiencyTable {
+    static constexpr std::string_view kName = "table";  ///< `type` in a material file
+
     std::vector<int> orders;              ///< ascending; all others are 0
     std::vector<EfficiencySlice> slices;  ///< ascending incidence, at least one
 };
@@ -35,11 +37,15 @@ double table_efficiency(const EfficiencyTable& table, double pitch_nm, int order
 
 /// A slit of width b in every pitch d (Agu's groove).
 struct SlitProfile {
+    static constexpr std::string_view kName = "slit";
+
     double width_nm = 0.0;  ///< 0 < b ≤ pitch
 };
 
 /// A rectangular groove: the fraction `duty` of the pitch is raised by `depth_nm`.
 struct LamellarProfile {
+    static constexpr std::string_view kName = "lamellar";
+
     double duty = 0.5;  ///< 0 < w < 1
     double depth_nm = 0.0;
 
@@ -48,6 +54,8 @@ struct LamellarProfile {
 
 /// A sinusoidal groove; the depth is peak to peak.
 struct SinusoidalProfile {
+    static constexpr std::string_view kName = "sinusoidal";
+
     double depth_nm = 0.0;
 
     friend bool operator==(const SinusoidalProfile&, const SinusoidalProfile&) = default;
@@ -55,6 +63,8 @@ struct SinusoidalProfile {
 
 /// A linear ramp whose depth grows toward +g: it favours orders m > 0.
 struct BlazedProfile {
+    static constexpr std::string_view kName = "blazed";
+
     double depth_nm = 0.0;
 
     friend bool operator==(const BlazedProfile&, const BlazedProfile&) = default;
@@ -67,11 +77,11 @@ using Profile = std::variant<SlitProfile, LamellarProfile, SinusoidalProfile, Bl
 /// One member of a profile in a material file: a number greater than 0, or the name of a file.
 struct ProfileMember {
     const char* key = "";       ///< in the file; profiles may have a key in common, which then means the same
-    const char* label = "";     ///< in a user interface
+    const char* label = "";     ///< in a user interface; with the unit the title in the schema
     const char* unit = "";      ///< "" for a pure number
     double less_than = 0.0;     ///< values lie in (0, less_than); infinity: no upper limit
     bool within_pitch = false;  ///< values lie in (0, pitch_nm] instead
-    double initial = 0.0;       ///< when a user chooses the profile
+    double initial = 0.0;       ///< when a user chooses the profile; the schema's default
     const char* help = "";
     const char* source = "";  ///< of the formula
     /// Returns the number in a Profile that holds the profile described. Null: the member names the file that the
@@ -81,7 +91,7 @@ struct ProfileMember {
 
 /// A profile as files and user interfaces know it.
 struct ProfileDescriptor {
-    std::string_view name;  ///< `type` in a material file
+    std::string_view name;  ///< kName
     Profile empty;          ///< the profile described, its numbers not set
     std::vector<ProfileMember> members;
 };

@@ -2,7 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
+#include <string_view>
+#include <type_traits>
 
 #include "engine/core/error.h"
 
@@ -25,6 +26,15 @@ struct Bounds {
 };
 
 }  // namespace
+
+std::optional<ReliefShape> relief_shape(const Profile& profile) {
+    return std::visit(
+        [](const auto& shape) -> std::optional<ReliefShape> {
+            if constexpr (std::is_constructible_v<ReliefShape, decltype(shape)>) return shape;
+            return std::nullopt;
+        },
+        profile);
+}
 
 void check_relief(const Relief& relief, const std::string& name) {
     const Bounds bounds{name};
@@ -54,12 +64,11 @@ std::optional<Refusal> rigorous_refusal(const Grating& grating) {
     };
     constexpr const char* kReliefs = "lamellar, sinusoidal or blazed grooves";
     if (grating.lattice) return with("a lattice", kReliefs);
-    const auto depth_nm = [](const auto& shape) -> std::optional<double> {
-        if constexpr (std::is_constructible_v<decltype(Relief::shape), decltype(shape)>) return shape.depth_nm;
-        return std::nullopt;
-    };
-    const std::optional<double> depth = std::visit(depth_nm, grating.profile);
-    if (!depth) return with("a profile without a relief", kReliefs);
+    const std::optional<ReliefShape> shape = relief_shape(grating.profile);
+    if (!shape) {
+        const std::string_view name = std::visit([](const auto& other) { return other.kName; }, grating.profile);
+        return with(fmt::format("profile \"{}\"", name), kReliefs);
+    }
     if (grating.side_reflectance) return with("the reflected side of a sheet", "grooves of a metal");
     if (!grating.metal && !grating.transmission)
         return Refusal{"/grating/theory", "\"rigorous\" without a metal",
@@ -69,8 +78,9 @@ std::optional<Refusal> rigorous_refusal(const Grating& grating) {
         return with(fmt::format("a pitch of {} nm", grating.pitch_nm),
                     fmt::format("more than {} nm, below which no order but 0 propagates, and up to {} nm", finest_nm,
                                 kCoarsestSolved_nm));
-    if (*depth > kDeepest * grating.pitch_nm)
-        return with(fmt::format("a depth of {} nm", *depth), "grooves up to four pitches deep");
+    const double depth = std::visit([](const auto& known) { return known.depth_nm; }, *shape);
+    if (depth > kDeepest * grating.pitch_nm)
+        return with(fmt::format("a depth of {} nm", depth), "grooves up to four pitches deep");
     if (grating.grooves < kManyGrooves)
         return Refusal{"/grating/grooves", fmt::format("{} with rigorous theory", grating.grooves),
                        fmt::format("at least {}", kManyGrooves),
@@ -91,16 +101,11 @@ Substrate substrate_of(const Grating& grating) {
 Relief relief_of(const Grating& grating, const std::string& name) {
     if (const auto refused = rigorous_refusal(grating))
         refuse_input(name, refused->key, refused->found, refused->expected, refused->remedy);
-    Relief relief{.pitch_nm = grating.pitch_nm,
-                  .shape = {},
-                  .films = grating.films,
-                  .ambient_ior = groove_medium(grating.cover),
-                  .mirrored = grating.transmission.has_value()};
-    std::visit(
-        [&](const auto& shape) {
-            if constexpr (requires { relief.shape = shape; }) relief.shape = shape;
-        },
-        grating.profile);
+    const Relief relief{.pitch_nm = grating.pitch_nm,
+                        .shape = *relief_shape(grating.profile),
+                        .films = grating.films,
+                        .ambient_ior = groove_medium(grating.cover),
+                        .mirrored = grating.transmission.has_value()};
     check_relief(relief, name);
     return relief;
 }

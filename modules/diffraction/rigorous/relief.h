@@ -11,6 +11,11 @@
 
 namespace rowland::diffraction {
 
+/// The profiles that the rigorous solver takes. All have a depth; another one also needs its modes (modes.h).
+using ReliefShape = std::variant<LamellarProfile, SinusoidalProfile, BlazedProfile>;
+/// nullopt for another profile.
+std::optional<ReliefShape> relief_shape(const Profile& profile);
+
 /// A relief that the rigorous solver takes: periodic along g, uniform along h, on a substrate whose index is given with
 /// the wavelength. A depth of 0 is a flat surface.
 ///
@@ -19,7 +24,7 @@ namespace rowland::diffraction {
 /// bars and groove floors, but not on the vertical walls.
 struct Relief {
     double pitch_nm = 0.0;
-    std::variant<LamellarProfile, SinusoidalProfile, BlazedProfile> shape = {};
+    ReliefShape shape = {};
     std::vector<DielectricFilm> films = {};  ///< from the substrate up
     double ambient_ior = 1.0;                ///< of the medium that the light comes from, ≥ 1
     bool mirrored = false;                   ///< along g: a blazed surface descends toward +g, or ascends if mirrored

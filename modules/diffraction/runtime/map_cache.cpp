@@ -70,10 +70,7 @@ void FillQueue::run(const std::stop_token& stop) {
     while (changed_.wait(guard, stop, [&] { return !jobs_.empty(); })) {
         running_ = std::move(jobs_.front());
         jobs_.pop_front();
-        if (running_->stop.stop_requested()) {
-            running_.reset();
-            continue;
-        }
+        if (running_->stop.stop_requested()) continue;
         guard.unlock();
         FilledMap map;
         std::string failure;

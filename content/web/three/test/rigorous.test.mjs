@@ -105,7 +105,7 @@ test("what rigorous theory cannot have is refused", { skip }, async () => {
     const refused = (material, efficiencies, words) => assert.rejects(new GratingMaterial({ rowland, grating: material, efficiencies }).ready, words);
     const efficiencies = { orders: [0, 1], begin_nm: 380, step_nm: 10, views: Array(65).fill(0), values: new Float32Array(2 * 41 * 65) };
     const slit = { grating: { pitch_nm: 1600, profile: { type: "slit", width_nm: 800 }, theory: "rigorous" }, metal: "Al" };
-    await refused(slit, undefined, /theory: "rigorous" with a profile without a relief; expected lamellar/);
+    await refused(slit, undefined, /theory: "rigorous" with profile "slit"; expected lamellar/);
     await refused({ ...RIGOROUS, metal: undefined }, undefined, /"rigorous" without a metal/);
     const scalar = { ...SCALAR, grating: { ...SCALAR.grating, theory: "scalar" } };
     await refused(scalar, efficiencies, /theory: efficiencies beside scalar theory; expected "theory": "rigorous"/);

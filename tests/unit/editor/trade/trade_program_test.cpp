@@ -250,7 +250,8 @@ TEST_F(TradeProgram, RigorousPrintsEveryOrderThatPropagates) {
     material("270", R"({"type": "blazed", "depth_nm": 100})");
     EXPECT_THAT(refusal("--s-g 0"), HasSubstr("from no direction in this plane does an order but 0 propagate"));
     material("1600", R"({"type": "slit", "width_nm": 800})");
-    EXPECT_THAT(refusal("--s-g 0"), HasSubstr("lamellar, sinusoidal or blazed grooves"));
+    EXPECT_THAT(refusal("--s-g 0"),
+                HasSubstr("\"rigorous\" with profile \"slit\"; expected lamellar, sinusoidal or blazed grooves"));
 }
 
 TEST_F(TradeProgram, BadRowsAreNamed) {

@@ -1,5 +1,8 @@
 // A representation is described once. The page, which is written by hand, agrees with the descriptors.
 
+#include <map>
+#include <string>
+
 #include "engine/core/file.h"
 #include "modules/diffraction/representations/representation.h"
 #include "tests/support/files.h"
@@ -29,6 +32,15 @@ TEST(RepresentationDescriptors, HaveARowWithTheirDefaultsInThePage) {
             const std::string expected = std::string("`") + setting.key + "` " + setting.default_value.dump();
             EXPECT_NE(row.find(expected), std::string::npos) << info->name << " lacks " << expected;
         }
+    }
+}
+
+/// The number before the tables of a cooked file names one representation.
+TEST(RepresentationDescriptors, HaveUniqueFileNumbers) {
+    std::map<int, std::string> taken = {{1, "one that no longer exists"}};
+    for (const RepresentationInfo* info : representations()) {
+        const auto [entry, is_new] = taken.try_emplace(info->file_number, info->name);
+        EXPECT_TRUE(is_new) << info->file_number << " is that of " << info->name << " and of " << entry->second;
     }
 }
 
