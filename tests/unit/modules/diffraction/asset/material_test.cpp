@@ -254,8 +254,8 @@ TEST(MaterialJson, MembersOutOfTheirDomainAreRefusedByFileAndPointer) {
     constexpr const char* sine = R"({"type": "sinusoidal", "depth_nm": 100})";
     const std::string al = R"(, "metal": "Al")";
     cases.push_back({with_profile(sine, R"(, "theory": "vector")", al), {"/grating/theory", "rigorous"}});
-    cases.push_back({solved(kTable, "", ""), {"/grating/theory", "relief"}});
-    cases.push_back({solved(kSlit, "", al), {"/grating/theory", "relief"}});
+    cases.push_back({solved(kTable, "", ""), {"/grating/theory", "lamellar, sinusoidal or blazed"}});
+    cases.push_back({solved(kSlit, "", al), {"/grating/theory", "lamellar, sinusoidal or blazed"}});
     cases.push_back({solved(sine, "", ""), {"/grating/theory", "metal"}});
     cases.push_back({solved(sine, R"(, "grooves": 20)", al), {"/grating/grooves", "rigorous"}});
     constexpr const char* deep = R"({"type": "sinusoidal", "depth_nm": 6401})";
