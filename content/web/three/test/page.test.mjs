@@ -57,7 +57,7 @@ test("the cabinet is shown, turns, compares with the reference and outlives a lo
 });
 
 let colour; // of the picture without limits
-test("the page draws on demand, follows fingers, outlives a lost context and names a broken file", { skip: missing }, async (t) => {
+test("the page draws on demand, outlives a lost context and names a broken file", { skip: missing }, async (t) => {
     const result = await visit("visit=4000");
     t.diagnostic(`${JSON.stringify(result.marks)}, settled ${Math.round(result.settled)} ms, in software`);
     t.diagnostic(`${result.lost} | ${result.broken} | ${result.pixel}`);
@@ -69,10 +69,12 @@ test("the page draws on demand, follows fingers, outlives a lost context and nam
     const { first, restored } = result.pictures;
     assert.ok(first.colour > 4, `colours of ${first.colour}`);
     assert.ok(Math.abs(restored.colour - first.colour) < 0.1 * first.colour, `${restored.colour} after ${first.colour}`);
-    const { turn, orbit, pinch } = result.touches;
+});
+
+test("fingers turn a disc, orbit and zoom", { skip: missing }, async (t) => {
+    const { turn, orbit, pinch } = (await visit("touch", "scene=samples", "800,600")).touches;
     t.diagnostic(JSON.stringify({ turn, orbit, pinch }));
-    assert.ok(Math.abs(Math.max(...turn.after.turns) - Math.max(...turn.before.turns) - 0.8) < 0.05,
-        "a sample turns .01 rad for each pixel");
+    assert.ok(Math.abs(Math.max(...turn.after.turns) - 0.8) < 0.05, "a sample turns .01 rad for each pixel");
     assert.ok(Math.abs(turn.after.azimuth - turn.before.azimuth) < 1e-6);
     assert.ok(Math.abs(orbit.after.azimuth - orbit.before.azimuth) > 0.1);
     assert.deepEqual(orbit.after.turns, orbit.before.turns);
