@@ -164,12 +164,12 @@ void CompareCommand::run() const {
 
 /// The arguments in one line, quoted for a shell.
 std::string command_line(std::span<char*> arguments) {
+    const auto is_plain = [](char c) {
+        return std::isalnum(static_cast<unsigned char>(c)) ||
+               std::string_view("-_./=:,+@%").find(c) != std::string_view::npos;
+    };
     std::string text;
     for (const std::string argument : arguments) {
-        const auto is_plain = [](char c) {
-            return std::isalnum(static_cast<unsigned char>(c)) ||
-                   std::string_view("-_./=:,+@%").find(c) != std::string_view::npos;
-        };
         if (!text.empty()) text += ' ';
         if (!argument.empty() && std::ranges::all_of(argument, is_plain)) {
             text += argument;
