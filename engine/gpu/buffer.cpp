@@ -59,6 +59,19 @@ Buffer Buffer::mapped(std::size_t bytes, GLbitfield access) {
     return buffer;
 }
 
+Buffer Buffer::copy_of(const Buffer& from, std::size_t offset, std::size_t bytes) {
+    ROWLAND_CHECK_OP(bytes, >, std::size_t{0});
+    ROWLAND_CHECK_OP(offset + bytes, <=, from.size());
+    GLuint name = 0;
+    glCreateBuffers(1, &name);
+    Buffer buffer;
+    buffer.handle_ = Handle<Release>(name);
+    buffer.size_ = bytes;
+    glNamedBufferStorage(name, static_cast<GLsizeiptr>(bytes), nullptr, 0);
+    glCopyNamedBufferSubData(from.id(), name, static_cast<GLintptr>(offset), 0, static_cast<GLsizeiptr>(bytes));
+    return buffer;
+}
+
 std::span<std::byte> Buffer::mapping() const {
     ROWLAND_CHECK(mapping_ != nullptr, "a buffer that is mapped");
     return {mapping_, size_};
@@ -82,12 +95,21 @@ void Buffer::bind_storage(unsigned binding, std::size_t offset, std::size_t byte
     bind(GL_SHADER_STORAGE_BUFFER, binding, offset, bytes);
 }
 
-void StreamBuffer::allocate(std::size_t copy_bytes, std::size_t copies) {
+void StreamBuffer::map_copies(std::size_t copy_bytes) {
     stride_ = aligned(copy_bytes);
     read_ = {};
     copy_ = 0;
-    buffer_ = Buffer::mapped(copies * stride_, GL_MAP_WRITE_BIT);
+    buffer_ = Buffer::mapped(kCopies * stride_, GL_MAP_WRITE_BIT);
     mapped_ = buffer_.mapping();
+}
+
+void StreamBuffer::hold(Buffer content) {
+    stride_ = aligned(content.size());
+    read_ = {};
+    copy_ = 0;
+    mapped_ = {};
+    buffer_ = std::move(content);
+    texels_write_ = 0;
 }
 
 void StreamBuffer::next_copy() {
@@ -98,18 +120,20 @@ void StreamBuffer::next_copy() {
 }
 
 void StreamBuffer::write(std::span<const std::byte> data) {
-    ROWLAND_CHECK_OP(data.size(), >, std::size_t{0});
-    if (writes_ == 0)
-        allocate(data.size(), 1);
-    else if (data.size() > stride_)
-        allocate(std::max(data.size(), stride_ + stride_ / 2), kCopies);
-    else if (writes_ == 1)
-        allocate(stride_, kCopies);
+    size_ = data.size();
+    kept_ = 0;
+    if (++writes_ == 1) return hold(Buffer(data));
+    if (data.size() > stride_)
+        map_copies(std::max(data.size(), stride_ + stride_ / 2));
+    else if (mapped_.empty())
+        map_copies(stride_);
     else
         next_copy();
     std::memcpy(&mapped_[copy_ * stride_], data.data(), data.size());
-    size_ = data.size();
-    ++writes_;
+}
+
+void StreamBuffer::keep() {
+    if (!mapped_.empty() && ++kept_ == kFramesToMove) hold(Buffer::copy_of(buffer_, copy_ * stride_, size_));
 }
 
 void StreamBuffer::bind_uniform(unsigned binding, std::size_t offset, std::size_t bytes) const {

@@ -53,6 +53,9 @@ class Buffer {
     /// The memory of a mapped() buffer; a logic error for others.
     std::span<std::byte> mapping() const;
 
+    /// A buffer that the GPU fills with `bytes` > 0 of `from`, after all commands so far.
+    static Buffer copy_of(const Buffer& from, std::size_t offset, std::size_t bytes);
+
     /// A buffer that holds `values` as they lie in memory.
     template <typename T>
     static Buffer of(std::span<const T> values) {
@@ -79,9 +82,10 @@ class Buffer {
     std::size_t size_ = 0;
 };
 
-/// GPU memory whose content is replaced up to once a frame, as a whole. Draws read what was last written before them.
-/// The first content is kept once. From the second write on there are three copies, written in turn, so that the GPU
-/// may be two writes late. They are replaced only if the content does not fit.
+/// A buffer whose content is replaced up to once a frame, as a whole. Draws read what was last written before them.
+/// The first content lies in the GPU's own memory. From the second write on there are three copies in mapped memory,
+/// written in turn, so that the GPU may be two writes late. They are replaced only if the content does not fit.
+/// A graphics card reads mapped memory over the bus in every draw: content that stays is to be kept().
 class StreamBuffer {
  public:
     /// Waits only if the GPU is more than two writes late. Throws Error (system) if there is no memory.
@@ -90,6 +94,10 @@ class StreamBuffer {
     void write_values(std::span<const T> values) {
         write(std::as_bytes(values));
     }
+
+    /// A frame draws the content of an earlier one. After kFramesToMove such frames it moves to the GPU's own memory.
+    void keep();
+    static constexpr int kFramesToMove = 8;
 
     /// Binds `bytes` from `offset` on, a multiple of kBufferAlignment.
     void bind_uniform(unsigned binding, std::size_t offset, std::size_t bytes) const;
@@ -111,18 +119,20 @@ class StreamBuffer {
     struct ReleaseTexture {
         void operator()(GLuint name) const;
     };
-    void allocate(std::size_t copy_bytes, std::size_t copies);
+    void map_copies(std::size_t copy_bytes);
+    void hold(Buffer content);
     void next_copy();
 
     Buffer buffer_;
-    std::span<std::byte> mapped_;
+    std::span<std::byte> mapped_;                     ///< empty: the only copy lies in the GPU's own memory
     std::size_t stride_ = 0;                          ///< bytes from copy to copy
     std::size_t copy_ = 0;                            ///< the last one written
     std::array<std::optional<Fence>, kCopies> read_;  ///< passed when the draws that read a copy are done
     std::size_t size_ = 0;
     int writes_ = 0;
+    int kept_ = 0;                           ///< calls of keep() since the last write
     mutable Handle<ReleaseTexture> texels_;  ///< made when first bound
-    mutable int texels_write_ = 0;           ///< which write it shows; 0: none
+    mutable int texels_write_ = 0;           ///< which write it shows; 0: none, or from another buffer
 };
 
 enum class VertexNumber {

@@ -90,7 +90,7 @@ ObjectBlock object_block(const Draw& draw, const glm::mat3& rec709_to_working, f
 
 void sort_opaque(std::vector<const Draw*>& draws) {
     std::ranges::stable_sort(draws, {}, [](const Draw* draw) {
-        return std::tuple(draw->first.program, draw->first.kind, draw->light.first, draw->distance2);
+        return std::tuple(draw->first.program, draw->first.kind, draw->light.first, draw->first.key, draw->distance2);
     });
 }
 

@@ -48,6 +48,7 @@ struct Draw {
         const gpu::Program* program = nullptr;          ///< null if it is not drawn in the main pass
         const gpu::Program* overlay_program = nullptr;  ///< MaterialType::overlay_program(), or null
         std::size_t block_offset = 0;                   ///< of its ObjectBlock in the renderer's buffer, bytes
+        std::uint64_t key = 0;                          ///< MaterialType::program_key()
         std::uint64_t kind = 0;                         ///< DrawControl::kind(); 0: its time is not measured
     };
     Lit first = {};
@@ -80,7 +81,7 @@ UvTransform uv_transform(const scene::TextureTransform& transform);
 /// What shaders read of a draw that gives the fraction `part` of the surface's light.
 ObjectBlock object_block(const Draw& draw, const glm::mat3& rec709_to_working, float part);
 
-/// Sorts by program, kind and probe, for few changes of state, then from front to back, for little overdraw.
+/// Sorts by program, kind, probe and material, for few changes of state, then from front to back, for little overdraw.
 void sort_opaque(std::vector<const Draw*>& draws);
 
 /// The fixed-function state that draws a surface into a target of this size; nullopt if its columns

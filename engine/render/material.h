@@ -164,7 +164,8 @@ class MaterialType {
     virtual bool owns(ecs::World& world, ecs::Entity entity) const = 0;
     /// The program that draws an owned entity; equal descriptions share one.
     virtual gpu::ProgramDesc program(ecs::World& world, ecs::Entity entity, ProbeSlot slot) const = 0;
-    /// Draws of equal keys have equal program(), which is then not called again; 0: call program() for each draw.
+    /// Draws of equal keys have equal program(), which is then not called again, and are drawn one after the other;
+    /// 0: call program() for each draw.
     virtual std::uint64_t program_key(ecs::World& /*world*/, ecs::Entity /*entity*/, ProbeSlot /*slot*/) const {
         return 0;
     }

@@ -211,6 +211,7 @@ void Renderer::select_draws(ecs::World& world, Frame& frame) {
         for (const ProbeSlot slot : {ProbeSlot::First, ProbeSlot::Second}) {
             if (slot == ProbeSlot::Second && !draw.light.has_second()) continue;
             Draw::Lit& lit = slot == ProbeSlot::First ? draw.first : draw.second;
+            if (draw.type != nullptr) lit.key = draw.type->program_key(world, draw.entity, slot);
             lit.program = &program_of(world, draw, slot);
             lit.overlay_program = overlay_program_of(world, draw, slot);
             const DrawControl* control = draw.type != nullptr ? draw.type->draw_control() : nullptr;
@@ -406,7 +407,7 @@ void Renderer::draw_sky(const Frame& frame) {
 
 const gpu::Program& Renderer::program_of(ecs::World& world, const Draw& draw, ProbeSlot slot) {
     if (draw.type == nullptr) return surface_program(kPlainShader, draw.features);
-    const std::uint64_t key = draw.type->program_key(world, draw.entity, slot);
+    const std::uint64_t key = (slot == ProbeSlot::First ? draw.first : draw.second).key;
     const auto found = key == 0 ? type_programs_.end() : type_programs_.find({draw.type, key, draw.features});
     if (found != type_programs_.end()) return *found->second;
     gpu::ProgramDesc desc = draw.type->program(world, draw.entity, slot);

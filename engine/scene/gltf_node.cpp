@@ -124,7 +124,7 @@ ImportedProbe probe_of(const gltf::Value& from, std::size_t node, const std::str
                         .fade_m = static_cast<float>(number_or(from, "fade_m", ImportedProbe{}.fade_m)),
                         .file = relative_path_of_uri(file, from.Get("probe").Get<std::string>(), pointer + "/probe")};
     for (int i = 0; i < 3; ++i)
-        probe.size_m[i] = static_cast<float>(from.Get("size_m").Get(static_cast<std::size_t>(i)).GetNumberAsDouble());
+        probe.size_m[i] = static_cast<float>(from.Get("size_m").Get(i).GetNumberAsDouble());
     return probe;
 }
 

@@ -117,6 +117,7 @@ std::vector<std::shared_ptr<void>> note_calls() {
     ROWLAND_NOTE(glCompileShader, Count<&Counts::compiled>);
     ROWLAND_NOTE(glLinkProgram, Count<&Counts::compiled>);
     ROWLAND_NOTE(glNamedBufferSubData, Count<&Counts::copied>);
+    ROWLAND_NOTE(glCopyNamedBufferSubData, Count<&Counts::copied>);
     ROWLAND_NOTE(glTextureSubImage2D, Count<&Counts::copied>);
     ROWLAND_NOTE(glTextureSubImage3D, Count<&Counts::copied>);
     ROWLAND_NOTE(glUseProgram, Set<0>);

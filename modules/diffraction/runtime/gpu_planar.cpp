@@ -145,7 +145,7 @@ void GpuPlanar::update(const SurfaceObject& object, SurfaceLight& light, Surface
         if (was_without) state.vertex_light = {};
         return;
     }
-    if (was_without && !object.changed) return;
+    if (was_without && !object.changed) return state.vertex_light.keep();
     if (!state.flat && !object.skinned && !was_without)
         log_warning("a grating of representation planar is on a mesh that is not flat: it is shaded as arc");
     SurfaceObject changed = object;

@@ -114,7 +114,7 @@ GpuSpikes::GpuSpikes(std::shared_ptr<const CookedMaterial> cooked, const SpikeTa
       wavelengths_(make_wavelengths()) {}
 
 void GpuSpikes::update(const SurfaceObject& object, SurfaceLight& light, SurfaceState& state) const {
-    if (!object.changed) return;
+    if (!object.changed) return state.vertex_light.keep();
     require_vertex_light(object, {.texels = static_cast<std::size_t>(math::sh_count(bands_))});
     const std::vector<float> rotated =
         rotate_to_vertices(harmonics(light, bands_), object.mesh, object.object_to_world, object.groove_rotation);
@@ -167,7 +167,7 @@ std::vector<glm::vec4> GpuArc::grooved_products(const SurfaceObject& object, con
 }
 
 void GpuArc::update(const SurfaceObject& object, SurfaceLight& light, SurfaceState& state) const {
-    if (!object.changed) return;
+    if (!object.changed) return state.vertex_light.keep();
     require_vertex_light(object, {.bytes = static_cast<std::size_t>(3 * products_.layers()) * sizeof(glm::vec4)});
     const lighting::ShLight& sh = harmonics(light, products_.bands());
     const std::vector<glm::vec4> products =

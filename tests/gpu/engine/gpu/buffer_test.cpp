@@ -129,6 +129,9 @@ void main() { colour = texelFetch(values, textureSize(values) - 1); })");
         std::vector<glm::vec3> written(count, glm::vec3(-1.0F));
         written.back() = glm::vec3(i, 2 * i, 3 * i);
         buffer.write_values(std::span<const glm::vec3>(written));
+        if (i % 3 == 0) buffer.bind_texels(3);  // of the memory that it moves from
+        if (i % 2 == 0)
+            for (int frame = 0; frame < gpu::StreamBuffer::kFramesToMove; ++frame) buffer.keep();
         buffer.bind_texels(3);
         target_.bind();
         gpu::apply({.depth_test = gpu::DepthTest::Off, .depth_write = false, .cull = gpu::Cull::None});
@@ -153,6 +156,25 @@ TEST_F(StreamBufferTest, MakesABufferInTheFirstTwoWritesAndWhereContentDoesNotFi
     EXPECT_EQ(made_for(33), 1);
     for (int i = 0; i < 10; ++i) EXPECT_EQ(made_for(48 - static_cast<std::size_t>(i)), 0) << "half as much again fits";
     EXPECT_EQ(buffer.writes(), 23);
+}
+
+TEST_F(StreamBufferTest, ContentThatFramesKeepMovesOnce) {
+    gpu::StreamBuffer buffer;
+    test::CallCounts calls;
+    for (int i = 0; i < kDraws; ++i) {
+        buffer.write_values(std::span<const glm::vec4>(values(32, static_cast<float>(i))));
+        calls.take();
+        for (int frame = 1; frame < 3 * gpu::StreamBuffer::kFramesToMove; ++frame) {
+            buffer.keep();
+            const bool moves = i > 0 && frame == gpu::StreamBuffer::kFramesToMove;  // the first content need not
+            const test::CallCounts::Counts counts = calls.take();
+            EXPECT_EQ(counts.made, moves ? 1 : 0) << i << ", " << frame;
+            EXPECT_EQ(counts.copied, moves ? 1 : 0) << i << ", " << frame;
+            EXPECT_EQ(counts.waits, 0) << i << ", " << frame;
+        }
+        draw_pixel(buffer, i, 31 * sizeof(glm::vec4) / gpu::kBufferAlignment * gpu::kBufferAlignment);
+    }
+    expect_the_numbers_of_the_pixels();
 }
 
 }  // namespace
