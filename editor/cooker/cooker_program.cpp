@@ -23,6 +23,7 @@
 #include "engine/core/log.h"
 #include "engine/core/parallel.h"
 #include "engine/core/program.h"
+#include "engine/scene/gltf_check.h"
 
 namespace rowland::editor {
 
@@ -95,7 +96,7 @@ void add_info_command(CLI::App& program, const cook::Registry& registry) {
 }
 
 void add_schema_command(CLI::App& program, const cook::Registry& registry) {
-    std::map<std::string, std::function<nlohmann::ordered_json()>> schemas;
+    std::map<std::string, std::function<nlohmann::ordered_json()>> schemas = scene::own_extension_schemas();
     for (const cook::AssetType& type : registry.types())
         if (type.schema) schemas[type.name] = type.schema;
     for (const cook::GltfExtension& extension : registry.gltf_extensions())

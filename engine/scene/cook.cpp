@@ -1,12 +1,14 @@
 #include "engine/scene/cook.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <filesystem>
 #include <map>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string_view>
 #include <utility>
 
@@ -165,19 +167,27 @@ struct SceneProbes {
     std::vector<Use> uses;
 };
 
+void warn_of_missing(const std::vector<std::string>& files, const std::string& scene) {
+    constexpr std::size_t kNamed = 3;
+    if (files.empty()) return;
+    std::string names = fmt::format("{}", fmt::join(std::span(files).first(std::min(files.size(), kNamed)), ", "));
+    if (files.size() > kNamed) names += fmt::format(" and {} more", files.size() - kNamed);
+    log_warning("{0}: no probe {1}: these boxes have the light around them; capture them: rowland-cook capture {0}",
+                scene, names);
+}
+
 /// Skips missing files with a warning, so that a scene can be drawn to capture its probes.
 SceneProbes read_probes(cook::Context& context, const ImportedScene& scene, const cook::AssetType* type) {
     SceneProbes read;
     std::map<std::filesystem::path, std::size_t> known;
+    std::vector<std::string> missing;
     for (std::size_t i = 0; i < scene.probes.size(); ++i) {
         const std::filesystem::path path = context.beside_source(scene.probes[i].file.string());
         auto found = known.find(path);
         if (found == known.end()) {
             context.depend_on(path);
             if (!std::filesystem::exists(path)) {
-                log_warning(
-                    "{0}: {1} is not there: its box has the light around it; capture it: rowland-cook capture {0}",
-                    context.source().string(), path.string());
+                missing.push_back(path.string());
                 continue;
             }
             asset::CookedAsset cooked = asset::unpack(context.read(path, kMaximumHashedBytes), path.string());
@@ -189,6 +199,7 @@ SceneProbes read_probes(cook::Context& context, const ImportedScene& scene, cons
         }
         read.uses.push_back({i, found->second});
     }
+    warn_of_missing(missing, context.source().string());
     return read;
 }
 

@@ -14,6 +14,7 @@
 #include <string_view>
 
 #include "engine/core/error.h"
+#include "engine/core/json_schema.h"
 #include "engine/scene/tinygltf.h"
 
 namespace rowland::scene {
@@ -44,6 +45,7 @@ struct Member {
     const char* target = nullptr;               ///< Index, Indices, Map: JSON pointer of the indexed array;
                                                 ///< "samplers": a member of the object that encloses the owner
     std::span<const Member> members{};          ///< Object, Objects
+    bool ours = false;                          ///< an Object of our own, which has no other members
 
     constexpr Member operator!() const {
         Member member = *this;
@@ -82,6 +84,9 @@ constexpr Member indices(const char* key, const char* target) {
 }
 constexpr Member object(const char* key, std::span<const Member> members) {
     return {.key = key, .kind = Kind::Object, .members = members};
+}
+constexpr Member our_extension(const char* key, std::span<const Member> members) {
+    return {.key = key, .kind = Kind::Object, .members = members, .ours = true};
 }
 constexpr Member objects(const char* key, std::span<const Member> members, std::size_t bytes_each) {
     return {.key = key, .kind = Kind::Objects, .count = bytes_each, .members = members};
@@ -172,9 +177,9 @@ constexpr std::array kWear = {number("scratches", kFactor),
                               integer("texCoord", 0, 1),
                               object("maskTexture", kUse)};
 constexpr std::array kStrength = {number("emissiveStrength", kEmission)};
-constexpr std::array kMaterialExtensions = {object("KHR_materials_unlit", {}),
-                                            object("KHR_materials_emissive_strength", kStrength),
-                                            object("KHR_materials_clearcoat", kCoat), object(kWearExtension, kWear)};
+constexpr std::array kMaterialExtensions = {
+    object("KHR_materials_unlit", {}), object("KHR_materials_emissive_strength", kStrength),
+    object("KHR_materials_clearcoat", kCoat), our_extension(kWearExtension, kWear)};
 constexpr std::array kMaterial = {text("name"),
                                   object("pbrMetallicRoughness", kPbr),
                                   object("normalTexture", kNormal),
@@ -203,7 +208,8 @@ constexpr std::array kLights = {!objects("lights", kLight, sizeof(gltf::Light))}
 
 constexpr std::array kNodeLight = {!index("light", "/extensions/KHR_lights_punctual/lights")};
 constexpr std::array kNodeProbe = {!numbers("size_m", 3, kBoxSide), number("fade_m", kFade), !text("probe")};
-constexpr std::array kNodeExtensions = {object(kLightExtension, kNodeLight), object(kProbeExtension, kNodeProbe)};
+constexpr std::array kNodeExtensions = {object(kLightExtension, kNodeLight),
+                                        our_extension(kProbeExtension, kNodeProbe)};
 constexpr std::array kNode = {text("name"),
                               index("mesh", "/meshes"),
                               index("skin", "/skins"),
@@ -256,6 +262,13 @@ class Check {
         return copy;
     }
 
+    /// What any object of a glTF may have is allowed beside the members that were read.
+    static void finish(JsonReader& reader) {
+        reader.ignore("extensions");
+        reader.ignore("extras");
+        reader.finish();
+    }
+
  private:
     Json read(JsonReader& reader, const Json& owner, const Member& member, const Json& around) {
         const std::string key = member.key;
@@ -280,7 +293,10 @@ class Check {
                 return read_indices(reader, member);
             case Kind::Object: {
                 JsonReader inner = reader.object(key);
-                return object(inner, owner.at(key), member.members, owner);
+                const Json& value = reader.is_recording_schema() ? owner : owner.at(key);
+                Json copy = object(inner, value, member.members, owner);
+                if (member.ours) finish(inner);
+                return copy;
             }
             case Kind::Objects:
                 return read_objects(reader, owner, member);
@@ -310,6 +326,7 @@ class Check {
     static std::string name_of(const std::string& target) { return target.substr(target.rfind('/') + 1); }
 
     Json read_index(JsonReader& reader, const std::string& key, const char* target, const Json& around) {
+        if (reader.is_recording_schema()) return reader.integer(key, 0, kMaximumCount - 1);
         const std::size_t count = size_of(target, around);
         if (count == 0 && reader.has(key))
             reader.fail(
@@ -449,6 +466,19 @@ void check_relations(const Json& checked, const std::string& file, std::vector<s
 }
 
 }  // namespace
+
+std::map<std::string, std::function<nlohmann::ordered_json()>> own_extension_schemas() {
+    const auto schema = [](const char* name, std::span<const Member> members) {
+        return json_schema(name, [members, name](JsonReader& reader) {
+            const Json nothing = Json::object();
+            MemoryBudget budget(name);
+            Check(nothing, budget).object(reader, nothing, members, nothing);
+            Check::finish(reader);
+        });
+    };
+    return {{kProbeExtension, [schema] { return schema(kProbeExtension, kNodeProbe); }},
+            {kWearExtension, [schema] { return schema(kWearExtension, kWear); }}};
+}
 
 void warn_once(std::vector<std::string>& warnings, std::string text) {
     if (std::ranges::find(warnings, text) == warnings.end()) warnings.push_back(std::move(text));

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <functional>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <span>
 #include <string>
@@ -15,6 +17,9 @@ inline constexpr const char* kLightExtension = "KHR_lights_punctual";
 inline constexpr const char* kTextureTransformExtension = "KHR_texture_transform";
 inline constexpr const char* kWearExtension = "ROWLAND_materials_wear";
 inline constexpr const char* kProbeExtension = "ROWLAND_light_probe";
+
+/// The JSON Schemas of the engine's own extensions, by name.
+std::map<std::string, std::function<nlohmann::ordered_json()>> own_extension_schemas();
 
 /// Adds `text` unless it is already there.
 void warn_once(std::vector<std::string>& warnings, std::string text);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/gtc/quaternion.hpp>
+#include <glm/matrix.hpp>
 #include <limits>
 #include <ranges>
 
@@ -123,8 +124,7 @@ ImportedProbe probe_of(const gltf::Value& from, std::size_t node, const std::str
     ImportedProbe probe{.node = node,
                         .fade_m = static_cast<float>(number_or(from, "fade_m", ImportedProbe{}.fade_m)),
                         .file = relative_path_of_uri(file, from.Get("probe").Get<std::string>(), pointer + "/probe")};
-    for (int i = 0; i < 3; ++i)
-        probe.size_m[i] = static_cast<float>(from.Get("size_m").Get(i).GetNumberAsDouble());
+    for (int i = 0; i < 3; ++i) probe.size_m[i] = static_cast<float>(from.Get("size_m").Get(i).GetNumberAsDouble());
     return probe;
 }
 
@@ -174,9 +174,12 @@ class NodeImport {
             scene_.lights.push_back({at, light_of(document_.model.lights[static_cast<std::size_t>(which)],
                                                   scene_.nodes.back().extras, document_, pointer)});
         }
-        if (const auto probe = node.extensions.find(kProbeExtension); probe != node.extensions.end())
+        if (const auto probe = node.extensions.find(kProbeExtension); probe != node.extensions.end()) {
             scene_.probes.push_back(
                 probe_of(probe->second, at, document_.file, pointer + "/extensions/" + kProbeExtension));
+            if (glm::determinant(glm::mat3(scene_.nodes.back().world)) == 0.0F)
+                scene_.warnings.push_back(fmt::format("{}: the box has no volume and lights nothing", pointer));
+        }
         if (node.camera >= 0)
             if (const gltf::Camera& camera = document_.model.cameras[static_cast<std::size_t>(node.camera)];
                 camera.type == "perspective")

@@ -15,6 +15,7 @@
 #include "engine/core/file.h"
 #include "engine/core/json_schema.h"
 #include "engine/lighting/probe_recipe.h"
+#include "engine/scene/gltf_check.h"
 #include "engine/scene/gltf_import.h"
 #include "engine/scene/mesh_recipe.h"
 #include "modules/asset_types.h"
@@ -270,6 +271,32 @@ TEST(Schema, OfTheGltfExtensionAgreesWithTheParser) {
         schema_of(diffraction::kGltfExtension), documents,
         [&](const json& document) { diffraction::parse_gltf_extension(document, "test", folder.path()); },
         [](const json& document) { return crosses_members(document) || names_another_file(document); });
+}
+
+TEST(Schema, OfTheEnginesExtensionsAgreeWithTheParser) {
+    // A material or a node, its extension set to the document.
+    const auto parse = [](const char* array, const std::string& name) {
+        return [=](const json& document) {
+            json root = {{"asset", {{"version", "2.0"}}}, {"textures", {json::object(), json::object()}}};
+            root[array] = {{{"extensions", {{name, document}}}}};
+            scene::MemoryBudget budget("test");
+            std::vector<std::string> warnings;
+            scene::check_gltf(root, "test", {}, budget, warnings);
+        };
+    };
+    const auto missing_texture = [](const json& document) {
+        return document.contains("maskTexture") && document["maskTexture"]["index"] > 1;
+    };
+    const Documents boxes = {json::parse(R"({"size_m": [4, 3, 0.5], "probe": "hall.probe"})"),
+                             json::parse(R"({"size_m": [1, 1, 1], "fade_m": 0.25, "probe": "a.probe", "extras": 1})")};
+    const Documents marks = {json::parse(R"({"scratches": 0.5, "dust": 1, "seed": 3, "extensions": {}})"),
+                             json::parse(R"({"fingerprints": 0.2, "size_m": 0.3, "texCoord": 1,
+                                             "maskTexture": {"index": 1, "texCoord": 1}})")};
+    auto schemas = scene::own_extension_schemas();
+    expect_agreement(schemas.at(scene::kProbeExtension)(), boxes, parse("nodes", scene::kProbeExtension),
+                     [](const json&) { return false; });
+    expect_agreement(schemas.at(scene::kWearExtension)(), marks, parse("materials", scene::kWearExtension),
+                     missing_texture);
 }
 
 TEST(Schema, OfFilmsAgreesWithTheParser) {

@@ -1,6 +1,9 @@
 #include "engine/scene/cook.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
+
+#include <algorithm>
 
 #include "engine/asset/container.h"
 #include "engine/core/json_reader.h"
@@ -14,6 +17,7 @@ namespace {
 using rowland::test::bytes_of;
 using rowland::test::message_of;
 using testing::Contains;
+using testing::ElementsAre;
 using testing::HasSubstr;
 
 const char* const kRecipe =
@@ -150,10 +154,29 @@ TEST_F(ProbeScene, AMissingProbeIsLeftOutAndADependency) {
     cook::Context context(source);
     testing::internal::CaptureStderr();
     const ImportedScene scene = read_cooked_scene(registry_.find("scene")->cook(context), "room.scene", {});
-    EXPECT_THAT(testing::internal::GetCapturedStderr(), HasSubstr("b.probe is not there"));
+    EXPECT_THAT(testing::internal::GetCapturedStderr(), HasSubstr("b.probe: these boxes"));
     EXPECT_TRUE(scene.probes.at(0).cooked);
     EXPECT_FALSE(scene.probes.at(1).cooked);
     EXPECT_THAT(context.dependencies(), Contains(source.parent_path() / "b.probe"));
+}
+
+TEST_F(ProbeScene, ManyMissingProbesAreOneWarningAndAFlatBoxAnother) {
+    std::string nodes;
+    for (int i = 0; i < 1000; ++i)
+        nodes += fmt::format(
+            R"({}{{"scale": [1, {}, -1], "extensions": {{"ROWLAND_light_probe": {{"size_m": [1, 1, 1], "probe": "{}.probe"}}}}}})",
+            i > 0 ? ", " : "", i == 7 ? 0 : 1, i);
+    const std::filesystem::path source = write(
+        "rooms.gltf",
+        fmt::format(R"({{"asset": {{"version": "2.0"}}, "extensionsUsed": ["ROWLAND_light_probe"], "nodes": [{}]}})",
+                    nodes));
+    testing::internal::CaptureStderr();
+    const ImportedScene scene = read_cooked_scene(cooked(source), "rooms.scene", {});
+    const std::string warnings = testing::internal::GetCapturedStderr();
+    EXPECT_EQ(scene.probes.size(), 1000U);
+    EXPECT_THAT(warnings, HasSubstr("2.probe and 997 more"));
+    EXPECT_EQ(std::ranges::count(warnings, '\n'), 1);
+    EXPECT_THAT(scene.warnings, ElementsAre(HasSubstr("/nodes/7: the box has no volume")));
 }
 
 TEST_F(ProbeScene, WhatIsNoProbeIsRefused) {
