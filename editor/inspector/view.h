@@ -22,8 +22,6 @@ namespace rowland::inspector {
 struct DrawnAs {
     std::string representation;     ///< "arc"; "arc and planar" where its meshes differ
     diffraction::ShadingCost cost;  ///< of the first
-
-    friend bool operator==(const DrawnAs&, const DrawnAs&) = default;
 };
 
 struct PickedPixel {

@@ -43,7 +43,7 @@ void compare(const std::string& what, const StageCost& cost, const nlohmann::jso
 }
 
 void compare(const GenerationCost& cost, const nlohmann::json& held, Comparison& result) {
-    if (cost.driver != held.at("driver")) {
+    if (cost.driver != held.at("driver").get<std::string>()) {
         result.same_driver = false;
         return;
     }

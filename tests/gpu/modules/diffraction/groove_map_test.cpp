@@ -84,7 +84,7 @@ class Grooves : public GratingPicture {
     }
     /// The mean over texels of what each would show, at some pixels; NaN elsewhere.
     AtPoint mean_over(const std::vector<Texel>& texels, const std::function<glm::dvec3(const Turned&)>& radiance) {
-        return [this, &texels, radiance, pixel = 0](const Point& point) mutable {
+        return [&texels, radiance, pixel = 0](const Point& point) mutable {
             if (++pixel % 41 != 0) return glm::dvec3(std::numeric_limits<double>::quiet_NaN());
             glm::dvec3 sum(0.0);
             for (const Texel& texel : texels) sum += radiance(turned_by(point, texel));

@@ -107,8 +107,8 @@ int components_of(GLenum type) {
 }
 
 bool is_number(GLenum type) {
-    for (const GLenum number :
-         {GL_FLOAT, GL_FLOAT_VEC2, GL_FLOAT_VEC3, GL_FLOAT_VEC4, GL_INT, GL_FLOAT_MAT3, GL_FLOAT_MAT4})
+    for (const GLenum number : std::initializer_list<GLenum>{GL_FLOAT, GL_FLOAT_VEC2, GL_FLOAT_VEC3, GL_FLOAT_VEC4,
+                                                             GL_INT, GL_FLOAT_MAT3, GL_FLOAT_MAT4})
         if (type == number) return true;
     return false;
 }

@@ -120,7 +120,8 @@ TEST(Search, TheLargestErrorOfThePartsDecidesAndTheLastPartChecks) {
     const std::vector<BudgetProbe> probes = {lamp(100)};
     const std::vector<ShadingPoint> frames = measured_frames(SurfaceShape::Flat);
     std::vector<MeasuredViews> views = {{.layout = GrooveLayout::Flat, .parts = {}}};
-    for (std::size_t i = 0; i < 4; ++i) views[0].parts.emplace_back(frames.begin() + 4 * i, frames.begin() + 4 * i + 4);
+    for (std::ptrdiff_t i = 0; i < 4; ++i)
+        views[0].parts.emplace_back(frames.begin() + 4 * i, frames.begin() + 4 * i + 4);
     const std::vector<nlohmann::json> settings = {kSearched[1], kSearched[3]};
     const auto error_of = [&](const MeasuredChoice& choice, std::size_t part) {
         return relative_rms(
