@@ -29,6 +29,13 @@ class Random {
 
     float operator()() { return static_cast<float>(generator_() >> 8U) * 0x1p-24F; }
     float between(float least, float most) { return least + (most - least) * (*this)(); }
+    /// y is drawn before x: as arguments of one call they would be drawn in an order that the compiler chooses.
+    glm::vec2 between(const glm::vec2& least, const glm::vec2& most) {
+        const float y = between(least.y, most.y);
+        return {between(least.x, most.x), y};
+    }
+    /// A point of the map, in texels.
+    glm::vec2 point() { return between(glm::vec2(0.0F), glm::vec2(kWearTexels)); }
     /// Exponentially distributed with mean 1.
     float exponential() { return -std::log(1.0F - (*this)()); }
 
@@ -94,7 +101,7 @@ struct Line {
 template <typename AreaOf>
 void draw_line(Random& random, const Line& line, const AreaOf& area_of, Canvas& canvas) {
     constexpr float kStep = 0.5F;  // texels
-    glm::vec2 point = static_cast<float>(kWearTexels) * glm::vec2(random(), random());
+    glm::vec2 point = random.point();
     const float texel = canvas.texel_m();
     const int steps = std::max(static_cast<int>(line.length / (kStep * texel)), 1);
     float angle = line.angle;
@@ -135,7 +142,7 @@ void draw_dust(float area, float density, Random& random, Canvas& canvas) {
         // Few are large: the radii are from 15 to 137 micrometres, with a probability density that falls with the
         // radius cubed.
         const float radius = 15e-6F / std::sqrt(1.0F - 0.988F * random()) / canvas.texel_m();
-        const glm::vec2 middle = static_cast<float>(kWearTexels) * glm::vec2(random(), random());
+        const glm::vec2 middle = random.point();
         if (radius < 0.6F)
             canvas.splat(middle, kPi * radius * radius * kDust);
         else
@@ -154,9 +161,9 @@ void draw_dust(float area, float density, Random& random, Canvas& canvas) {
 /// Draws a finger's ridges around a core, lengths in millimetres. The skin touches in patches, within an ellipse.
 void draw_fingerprint(Random& random, Canvas& canvas) {
     constexpr float kRidge = 0.45F;  // from one ridge to the next
-    const glm::vec2 half(random.between(6.5F, 8.5F), random.between(9.0F, 12.0F));
-    const glm::vec2 middle = static_cast<float>(kWearTexels) * glm::vec2(random(), random());
-    const glm::vec2 core(random.between(-1.0F, 1.0F), random.between(-2.5F, 0.5F));
+    const glm::vec2 half = random.between(glm::vec2(6.5F, 9.0F), glm::vec2(8.5F, 12.0F));
+    const glm::vec2 middle = random.point();
+    const glm::vec2 core = random.between(glm::vec2(-1.0F, -2.5F), glm::vec2(1.0F, 0.5F));
     const float angle = random.between(0.0F, 2.0F * kPi);
     const float strength = random.between(0.25F, 0.6F);
     const float lean = random.between(-0.12F, 0.12F);

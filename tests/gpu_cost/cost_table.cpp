@@ -107,7 +107,7 @@ Comparison compare_with(const std::string& held, const std::string& file, const 
     try {
         for (const nlohmann::json& generation : nlohmann::json::parse(held))
             for (const GenerationCost& cost : costs)
-                if (cost.name == generation.at("name")) compare(cost, generation, result);
+                if (cost.name == generation.at("name").get<std::string>()) compare(cost, generation, result);
     } catch (const nlohmann::json::exception& error) {
         refuse_input(file, "", error.what(), "a file that --json wrote");
     }

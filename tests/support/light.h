@@ -26,7 +26,9 @@ inline std::vector<Facing> random_facings(int count) {
     std::mt19937 generator(1);
     std::normal_distribution<double> normal;
     const auto direction = [&] {
-        return glm::normalize(glm::dvec3(normal(generator), normal(generator), normal(generator)));
+        glm::dvec3 result;
+        for (int i = 2; i >= 0; --i) result[i] = normal(generator);  // arguments of a call have no order
+        return glm::normalize(result);
     };
     std::vector<Facing> facings;
     while (facings.size() < static_cast<std::size_t>(count)) {

@@ -22,10 +22,7 @@ FullResolutionProbe load_full_resolution_probe(const std::filesystem::path& path
                  "the light at full resolution", "give the probe's image or recipe");
 }
 
-namespace {
-
-/// SH bands that the tables were baked for; 0 for tables without SH.
-int bands_of(const diffraction::BakedTables& tables) {
+int harmonic_bands(const diffraction::BakedTables& tables) {
     return std::visit(
         [](const auto& t) -> int {
             if constexpr (requires { t.bands; }) return t.bands;
@@ -34,8 +31,6 @@ int bands_of(const diffraction::BakedTables& tables) {
         },
         tables);
 }
-
-}  // namespace
 
 /// The probe of the last query, and what was derived from it.
 struct PixelMeter::Lit {
@@ -60,7 +55,7 @@ struct PixelMeter::Lit {
         PixelReading reading{.query = query, .key_lights = key_lights, .point = {}};
         if (query.window) {
             reading.window = *query.window;
-        } else if (const int bands = bands_of(drawn_tables(query.cooked->tables, query.layout)); bands > 0) {
+        } else if (const int bands = harmonic_bands(drawn_tables(query.cooked->tables, query.layout)); bands > 0) {
             if (std::exchange(windowed, {query.cooked, query.layout}) != std::pair{query.cooked, query.layout})
                 window = diffraction::weakest_window(comparer->harmonics(key_lights, bands), bands);
             reading.window = window;

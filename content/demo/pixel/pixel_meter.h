@@ -22,6 +22,9 @@ using lighting::FullResolutionProbe;
 FullResolutionProbe load_full_resolution_probe(const std::filesystem::path& path, const std::string& mapping,
                                                const std::filesystem::path& recipes);
 
+/// SH bands that the tables were baked for; 0 for tables without SH.
+int harmonic_bands(const diffraction::BakedTables& tables);
+
 /// The probe under which points are measured.
 struct PixelProbe {
     std::filesystem::path path;

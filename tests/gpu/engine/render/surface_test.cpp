@@ -215,7 +215,10 @@ TEST_F(LitSurfaceTest, NormalsThatVaryWithinAPixelWidenTheHighlight) {
     constexpr int kTexels = 512;
     std::mt19937 random(5);
     std::normal_distribution<float> slope(0.0F, 0.2F);
-    const auto normal = [&] { return glm::normalize(glm::vec3(slope(random), slope(random), 1.0F)); };
+    const auto normal = [&] {
+        const float y = slope(random);
+        return glm::normalize(glm::vec3(slope(random), y, 1.0F));
+    };
     auto picture = std::make_shared<image::ByteImage>(image::ByteImage{kTexels, kTexels, {}});
     for (int i = 0; i < kTexels * kTexels; ++i) {
         const glm::u8vec4 texel(glm::round(127.5F * (normal() + 1.0F)), 255);

@@ -1,0 +1,411 @@
+// A walk through the three rooms: how the picture changes from frame to frame under many probes, and how far gratings
+// are from the reference under the light of their place.
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <map>
+#include <memory>
+#include <optional>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "content/demo/pixel/pixel_meter.h"
+#include "content/demo/pixel/surface_point.h"
+#include "engine/asset/container.h"
+#include "engine/colour/colour_space.h"
+#include "engine/colour/illuminant.h"
+#include "engine/command_line/command_line.h"
+#include "engine/core/error.h"
+#include "engine/core/log.h"
+#include "engine/core/program.h"
+#include "engine/gpu/framebuffer.h"
+#include "engine/lighting/light_probe.h"
+#include "engine/live/live_assets.h"
+#include "engine/platform/gl_context.h"
+#include "engine/render/capture.h"
+#include "engine/render/gpu_mesh.h"
+#include "engine/render/renderer.h"
+#include "engine/render/scene_instance.h"
+#include "engine/render/scene_lights.h"
+#include "engine/scene/mesh_recipe.h"
+#include "engine/scene/transform.h"
+#include "modules/asset_types.h"
+#include "modules/diffraction/evaluate/error_measure.h"
+#include "modules/diffraction/evaluate/point_shader.h"
+#include "modules/diffraction/module.h"
+#include "modules/diffraction/reference/reference.h"
+#include "modules/diffraction/runtime/diffraction_surface.h"
+#include "modules/diffraction/runtime/surface_light.h"
+#include "modules/diffraction/runtime/vertex_light.h"
+#include "modules/material_types.h"
+
+namespace rowland {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using Pixels = std::vector<glm::vec4>;
+
+/// Where rooms.glb has its doors, along x in metres, and the path through them.
+constexpr std::array kDoors_m = {6.1F, 12.3F};
+constexpr float kBegin_m = 0.6F;
+constexpr float kEnd_m = 17.8F;
+constexpr float kEyeHeight_m = 1.6F;
+
+struct Options {
+    std::filesystem::path scene;
+    glm::ivec2 size{320, 180};
+    int frames = 200;  ///< through a door
+    int places = 64;
+    int face_size = 64;  ///< of the captured light
+};
+
+scene::Camera camera_at(float x, const glm::vec3& forward) {
+    const glm::vec3 eye(x, kEyeHeight_m, 0.0F);
+    return {.eye = eye, .target = eye + forward, .vertical_field_of_view = 0.9F, .near_plane = 0.02F};
+}
+
+/// The rooms, under a probe for each box or, as if there was no box, under one.
+class Rooms {
+ public:
+    Rooms(const Options& options, std::optional<std::size_t> one_probe)
+        : renderer_(glm::inverse(colour::rec709_to_xyz())) {
+        modules::register_material_types(renderer_);
+        const auto registry = modules::asset_types();
+        std::vector<std::filesystem::path> files;
+        const scene::ImportedScene scene = live::load_scene(*registry, options.scene, {}, files);
+        const auto& sky = options.scene.parent_path() / "evening.probe";
+        const auto cooked = asset::load(sky, "probe", lighting::kLightProbeVersion);
+        renderer_.set_probe(lighting::deserialise(cooked.payload, sky.string()));
+        renderer_.use_key_lights(true);
+        instance_ = render::instantiate(world_, scene, renderer_, options.scene.string());
+        scene::update_world_matrices(world_);
+        volumes_ = render::gather_volumes(world_);
+        if (!one_probe) return;
+        renderer_.set_probe(lighting::LightProbe(*volumes_.probes.at(*one_probe)));
+        remove_boxes();
+    }
+
+    void remove_boxes() {
+        for (const ecs::Entity box : instance_.probes) world_.destroy(box);
+        instance_.probes.clear();
+    }
+
+    /// A disc and a sphere of gratings of the scene, carried before the camera.
+    void carry_gratings() {
+        std::map<bool, std::shared_ptr<const diffraction::GpuMaterial>> materials;  // by whether they are for discs
+        world_.view<diffraction::DiffractionSurface>().each(
+            [&](ecs::Entity, const diffraction::DiffractionSurface& surface) {
+                const auto& measured = surface.material->cooked()->measured;
+                if (measured && !surface.material->base().passes_light)
+                    materials.emplace(measured->surface == diffraction::SurfaceShape::Flat, surface.material);
+            });
+        const std::array meshes = {scene::build_mesh(scene::SphereRecipe{.radius = 0.05}),
+                                   scene::build_mesh(scene::DiscRecipe{
+                                       .inner_radius = 0.01, .outer_radius = 0.06, .rings = 4, .segments = 64})};
+        for (const bool is_disc : {false, true}) {
+            const ecs::Entity entity = carried_.emplace_back(world_.create());
+            world_.add(entity, scene::Transform{});
+            world_.add(entity, render::make_mesh_instance(meshes[is_disc ? 1 : 0]));
+            world_.add(entity, render::StandardMaterial{});
+            diffraction::add_surface(world_, entity, {.material = materials.at(is_disc)}, true);
+        }
+    }
+
+    void carry_at(const scene::Camera& camera) {
+        const glm::vec3 forward = glm::normalize(camera.target - camera.eye);
+        const glm::vec3 right = glm::normalize(glm::cross(forward, camera.up));
+        for (std::size_t i = 0; i < carried_.size(); ++i)
+            world_.get<scene::Transform>(carried_[i]) = {
+                .translation = camera.eye + 0.4F * forward + (i == 0 ? -0.08F : 0.08F) * right,
+                .rotation = glm::angleAxis(1.2F, right)};
+        scene::update_world_matrices(world_);
+    }
+
+    double draw_ms(const scene::Camera& camera, const gpu::Framebuffer& target) {
+        const Clock::time_point start = Clock::now();
+        renderer_.render(world_, camera, target);
+        glFinish();
+        return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+    }
+
+    render::Renderer& renderer() { return renderer_; }
+    ecs::World& world() { return world_; }
+    const render::ProbeVolumes& volumes() const { return volumes_; }
+
+ private:
+    render::Renderer renderer_;
+    ecs::World world_;
+    render::SceneInstance instance_;
+    render::ProbeVolumes volumes_;
+    std::vector<ecs::Entity> carried_;
+};
+
+/// The box about a point of the path.
+std::size_t box_at(const render::ProbeVolumes& volumes, float x) {
+    const render::LightMix mix = render::light_at({x, kEyeHeight_m, 0.0F}, volumes.boxes);
+    const std::size_t probe = mix.second_part > 0.5F ? mix.second : mix.first;
+    ROWLAND_CHECK(probe > 0, "a box about each door");
+    return probe - 1;
+}
+
+struct Walk {
+    double largest_step = 0.0;  ///< of a display value, in 1/255
+    /// RMS over the pixels where the carried gratings are, in 1/255: of the median frame and of the largest.
+    double carried_median = 0.0;
+    double carried_largest = 0.0;
+    double middle_ms = 0.0;  ///< median of the frames' times
+    double longest_ms = 0.0;
+    int filling = 0;  ///< frames after the first in which maps were not filled
+};
+
+/// `white`: the radiance that is shown as white.
+Walk walk_through(Rooms& rooms, const Options& options, float door_m, double white) {
+    const gpu::Framebuffer target(
+        {.width = options.size.x, .height = options.size.y, .colours = {gpu::Format::RGBA32F}, .depth = true});
+    const auto display = [&](float value) {
+        return 255.0 * std::pow(std::clamp(static_cast<double>(value) / white, 0.0, 1.0), 1.0 / 2.2);
+    };
+    Walk walk;
+    std::vector<double> times;
+    std::vector<double> carried_steps;
+    Pixels before;
+    for (int frame = 0; frame < options.frames; ++frame) {
+        const float x = door_m - 1.0F + 2.0F * static_cast<float>(frame) / static_cast<float>(options.frames - 1);
+        const scene::Camera camera = camera_at(x, {1.0F, 0.0F, 0.0F});
+        rooms.carry_at(camera);
+        if (frame == 0)
+            for (rooms.draw_ms(camera, target); diffraction::maps_are_filling(rooms.world());)
+                rooms.draw_ms(camera, target);
+        times.push_back(rooms.draw_ms(camera, target));
+        if (diffraction::maps_are_filling(rooms.world())) ++walk.filling;
+        Pixels pixels = target.read_rgba_float();
+        double squares = 0.0;
+        int values = 0;
+        for (std::size_t i = 0; i < before.size(); ++i) {
+            const auto column = static_cast<int>(i) % options.size.x;
+            const auto row = static_cast<int>(i) / options.size.x;
+            // The carried gratings fill the middle of the picture.
+            const bool carried = std::abs(2 * column - options.size.x) < options.size.y / 2 &&
+                                 std::abs(2 * row - options.size.y) < options.size.y / 5;
+            for (int c = 0; c < 3; ++c) {
+                const double step = std::abs(display(pixels[i][c]) - display(before[i][c]));
+                walk.largest_step = std::max(walk.largest_step, step);
+                if (!carried) continue;
+                squares += step * step;
+                ++values;
+            }
+        }
+        if (values > 0) carried_steps.push_back(std::sqrt(squares / values));
+        before = std::move(pixels);
+    }
+    walk.longest_ms = *std::ranges::max_element(times);
+    walk.carried_median = diffraction::quantile(carried_steps, 0.5);
+    walk.carried_largest = diffraction::quantile(carried_steps, 1.0);
+    walk.middle_ms = diffraction::quantile(times, 0.5);
+    return walk;
+}
+
+void walk_through_doors(const Options& options) {
+    std::printf("%d frames through each door, %d × %d; steps of a display value in 1/255\n", options.frames,
+                options.size.x, options.size.y);
+    std::printf("%6s %-10s %8s %15s %8s %9s %8s %8s\n", "door", "probes", "largest", "carried: median", "largest",
+                "median ms", "longest", "filling");
+    for (const float door_m : kDoors_m) {
+        Rooms many(options, std::nullopt);
+        const std::size_t at_door = box_at(many.volumes(), door_m);
+        Rooms one(options, at_door);
+        const gpu::Framebuffer target(
+            {.width = options.size.x, .height = options.size.y, .colours = {gpu::Format::RGBA32F}, .depth = true});
+        one.draw_ms(camera_at(door_m - 1.0F, {1.0F, 0.0F, 0.0F}), target);
+        double mean = 0.0;
+        const Pixels pixels = target.read_rgba_float();
+        for (const glm::vec4& pixel : pixels) mean += static_cast<double>(pixel.y);
+        const double white = mean / static_cast<double>(pixels.size()) / 0.18;
+        std::map<std::string, Walk> walks;
+        for (const auto& [name, rooms] : {std::pair("one", &one), std::pair("many", &many)}) {
+            rooms->carry_gratings();
+            const Walk& walk = walks[name] = walk_through(*rooms, options, door_m, white);
+            std::printf("%6.1f %-10s %8.1f %15.2f %8.2f %9.1f %8.1f %8d\n", static_cast<double>(door_m), name,
+                        walk.largest_step, walk.carried_median, walk.carried_largest, walk.middle_ms, walk.longest_ms,
+                        walk.filling);
+        }
+        std::printf("%6.1f %-10s %8.2f\n", static_cast<double>(door_m), "many ÷ one",
+                    walks["many"].largest_step / walks["one"].largest_step);
+        std::fflush(stdout);
+    }
+}
+
+/// A point of a grating that is seen from a place of the walk.
+struct SeenPoint {
+    int place = 0;
+    std::shared_ptr<const diffraction::CookedMaterial> cooked;
+    diffraction::GrooveLayout layout{};
+    diffraction::ShadingPoint frame;
+    glm::vec3 centre{0.0F};  ///< of the object's bounds
+    render::LightMix light;
+    glm::dvec3 shown{0.0};
+    glm::dvec3 reference{0.0};  ///< under the mixed light
+};
+
+/// At most `kPoints` points per place, each of another grating without a groove texture.
+std::vector<SeenPoint> seen_points(Rooms& rooms, const Options& options) {
+    constexpr glm::ivec2 kTexels(64, 36);
+    constexpr std::size_t kPoints = 4;
+    constexpr std::array kForward = {glm::vec3(1, -0.15F, 0), glm::vec3(0, -0.15F, -1), glm::vec3(-1, -0.15F, 0),
+                                     glm::vec3(0, -0.15F, 1)};
+    std::vector<demo::PlacedMesh> meshes;
+    std::vector<ecs::Entity> entities;
+    rooms.world().view<render::MeshInstance, scene::WorldMatrix>().each(
+        [&](ecs::Entity entity, const render::MeshInstance& mesh, const scene::WorldMatrix& matrix) {
+            meshes.push_back({mesh.mesh, matrix.matrix});
+            entities.push_back(entity);
+        });
+    std::vector<SeenPoint> points;
+    std::mt19937 random(7);
+    for (int place = 0; place < options.places; ++place) {
+        const float x =
+            kBegin_m + (kEnd_m - kBegin_m) * (static_cast<float>(place) + 0.5F) / static_cast<float>(options.places);
+        const scene::Camera camera = camera_at(x, kForward[static_cast<std::size_t>(place) % kForward.size()]);
+        auto texels = demo::visible_points(camera, kTexels, meshes);
+        std::ranges::shuffle(texels, random);
+        std::vector<std::size_t> taken;
+        for (const auto& texel : texels) {
+            if (!texel || taken.size() == kPoints || std::ranges::find(taken, texel->mesh) != taken.end()) continue;
+            const ecs::Entity entity = entities[texel->mesh];
+            const auto grating = demo::placed_grating(rooms.world(), entity);
+            const auto* surface = rooms.world().find<diffraction::DiffractionSurface>(entity);
+            if (!grating || surface->grooves) continue;
+            const auto frame = demo::frame_at(*grating, texel->hit, texel->point, camera.eye);
+            if (!frame) continue;
+            const auto& instance = rooms.world().get<render::MeshInstance>(entity);
+            const scene::Bounds bounds = render::transformed(instance.gpu->bounds(), grating->to_world);
+            SeenPoint point{.place = place,
+                            .cooked = surface->material->cooked(),
+                            .layout = diffraction::groove_layout(*grating->mesh, false, false),
+                            .frame = *frame,
+                            .centre = 0.5F * (bounds.minimum + bounds.maximum),
+                            .light = {}};
+            point.light = render::light_at(point.centre, rooms.volumes().boxes);
+            if (point.light.first == 0) continue;  // partly the light far away
+            taken.push_back(texel->mesh);
+            points.push_back(point);
+        }
+    }
+    return points;
+}
+
+glm::dvec3 reference_under(const lighting::ProbeImage& light, const SeenPoint& point) {
+    const diffraction::Material& material = point.cooked->material;
+    return diffraction::reference_radiance(material.grating, light, colour::LightSpectra(material.quality.illuminant),
+                                           {{point.frame}})[0];
+}
+
+/// Adds what each point shows, and what the reference shows, under the captured light of its probes.
+void compare(const std::vector<lighting::ProbeImage>& lights, std::vector<SeenPoint>& points) {
+    const int key_lights = lighting::LightProbeSettings{}.key_lights;
+    Progress progress("comparing", lights.size());
+    for (std::size_t probe = 0; probe < lights.size(); ++probe) {
+        std::optional<diffraction::PointComparer> comparer;
+        for (SeenPoint& point : points) {
+            const double second = static_cast<double>(point.light.second_part);
+            const double part = point.light.first == probe + 1                    ? 1.0 - second
+                                : second > 0.0 && point.light.second == probe + 1 ? second
+                                                                                  : 0.0;
+            if (part == 0.0) continue;
+            if (!comparer) comparer.emplace(lights[probe], key_lights);
+            math::SphericalWindow window = math::SphericalWindow::None;
+            const int bands = demo::harmonic_bands(drawn_tables(point.cooked->tables, point.layout));
+            if (bands > 0)
+                window = diffraction::weakest_window(
+                    comparer->harmonics(std::min(point.cooked->material.quality.key_lights, key_lights), bands), bands);
+            const auto compared = comparer->compare(point.cooked, window, point.frame, point.layout);
+            point.shown += part * compared.shown;
+            point.reference += part * compared.reference;
+        }
+        progress.advance();
+    }
+}
+
+struct Errors {
+    std::vector<glm::dvec3> shown;
+    std::vector<glm::dvec3> reference;
+    void print(const char* what) const {
+        if (shown.empty()) return;
+        std::printf("%-64s %6zu %9.2f %%\n", what, shown.size(), 100.0 * diffraction::relative_rms(shown, reference));
+    }
+};
+
+void compare_places(const Options& options) {
+    Rooms rooms(options, std::nullopt);
+    std::vector<SeenPoint> points = seen_points(rooms, options);
+    rooms.remove_boxes();
+    std::vector<lighting::ProbeImage> lights;
+    for (const render::ProbeBox& box : rooms.volumes().boxes)
+        lights.push_back(render::capture_surroundings(rooms.renderer(), rooms.world(), glm::vec3(box.box_to_world[3]),
+                                                      options.face_size));
+    compare(lights, points);
+    Errors all;
+    Errors between;
+    Errors captured_one;
+    Errors captured_two;
+    std::map<int, Errors> of_place;
+    Progress progress("capturing", points.size());
+    for (const SeenPoint& point : points) {
+        const auto add = [&](Errors& errors) {
+            errors.shown.push_back(point.shown);
+            errors.reference.push_back(point.reference);
+        };
+        add(all);
+        add(of_place[point.place]);
+        if (point.light.has_second()) add(between);
+        Errors& captured = point.light.has_second() ? captured_two : captured_one;
+        captured.shown.push_back(point.reference);
+        captured.reference.push_back(reference_under(
+            render::capture_surroundings(rooms.renderer(), rooms.world(), point.centre, options.face_size), point));
+        progress.advance();
+    }
+    std::printf("\n%-64s %6s %11s\n", "relative RMS error of gratings' XYZ in so many places", "points", "");
+    all.print("against the reference under their probes' light");
+    between.print("of these, of objects between two probes");
+    captured_one.print("reference under one probe against that under the object's own");
+    captured_two.print("reference under two, mixed, against that under the object's own");
+    std::vector<double> errors;
+    for (const auto& [place, of] : of_place) errors.push_back(diffraction::relative_rms(of.shown, of.reference));
+    std::printf("places: %zu, median %.2f %%, worst %.2f %%\n", errors.size(),
+                100.0 * diffraction::quantile(errors, 0.5), 100.0 * diffraction::quantile(errors, 1.0));
+}
+
+int run(int argc, char** argv) {
+    Options options;
+    options.scene =
+        std::filesystem::read_symlink("/proc/self/exe").parent_path().parent_path() / "cooked" / "rooms.scene";
+    CLI::App app{"A walk through the three rooms, under a probe for each box and under one.", "rowland-walk-benchmark"};
+    app.footer(
+        "Needs the rooms: ./rowland rooms, or the target rowland-rooms.\nexample: rowland-walk-benchmark --frames 50");
+    app.add_option("--frames", options.frames, "Frames through each door; 0: skip them")
+        ->check(CLI::Range(0, 10000))
+        ->capture_default_str();
+    app.add_option("--places", options.places, "Places in which gratings are compared with the reference; 0: none")
+        ->check(CLI::Range(0, 10000))
+        ->capture_default_str();
+    app.add_option("--width", options.size.x, "Width in pixels")->check(CLI::Range(16, 8192))->capture_default_str();
+    app.add_option("--height", options.size.y, "Height in pixels")->check(CLI::Range(16, 8192))->capture_default_str();
+    if (!parse_command_line(app, argc, argv)) return 0;
+    if (!std::filesystem::exists(options.scene))
+        fail_system(options.scene.string(), "no such file", "build it: ./rowland rooms --help");
+    const platform::HeadlessContext context;
+    if (options.frames > 0) walk_through_doors(options);
+    if (options.places > 0) compare_places(options);
+    return 0;
+}
+
+}  // namespace
+}  // namespace rowland
+
+int main(int argc, char** argv) {
+    return rowland::run_program([&] { return rowland::run(argc, argv); });
+}
