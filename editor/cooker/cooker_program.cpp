@@ -48,6 +48,8 @@ void add_cook_command(CLI::App& program, const cook::Registry& registry) {
     command->add_option("SOURCE", options->source, "The source file")->required();
     command->add_option("-o,--output", options->output, "The cooked file; its folder is created")->required();
     command->add_option("--depfile", options->settings.depfile, "Write the files that were read, in Makefile syntax");
+    command->add_option("--parts", options->settings.parts_folder,
+                        "A folder that keeps a scene's gratings, so that the next cook bakes only those that changed");
     add_threads_option(*command, options->threads);
     command->footer("Example: rowland-cook cook content/materials/cd.json -o cooked/cd.material --depfile cd.d");
     command->callback([options, &registry] {

@@ -75,14 +75,15 @@ Hash128 content_hash(const AssetType& type, std::span<const Hash128> dependencie
     return hasher.digest();
 }
 
-BakedAsset bake_source(const Registry& registry, const std::filesystem::path& source) {
+BakedAsset bake_source(const Registry& registry, const std::filesystem::path& source,
+                       const std::filesystem::path& parts_folder) {
     read_beginning(source, 1);  // throws unless it is a readable file
     const AssetType& type =
         as_refusal_of(source, [&]() -> const AssetType& { return registry.type_of_source(source); });
     if (!type.cook)
         refuse_input(source.string(), {}, fmt::format("a {}, which is only checked, never cooked", type.name),
                      "a source that is cooked");
-    Context context(source);
+    Context context(source, parts_folder);
     ++baked_sources;
     BakedAsset baked;
     baked.asset.payload = as_refusal_of(source, [&] { return type.cook(context); });
@@ -97,7 +98,7 @@ BakedAsset cook_source(const Registry& registry, const std::filesystem::path& so
     std::vector<Output> outputs = {{"--output", output}};
     if (settings.depfile) outputs.push_back({"--depfile", *settings.depfile});
     check_outputs({&source, 1}, outputs);
-    BakedAsset baked = bake_source(registry, source);
+    BakedAsset baked = bake_source(registry, source, settings.parts_folder);
     check_outputs(baked.dependencies, outputs);  // what the source names is known only now
     // Made before anything is written, since it may refuse a name.
     std::string depfile;
@@ -117,10 +118,18 @@ namespace {
 
 constexpr std::uint64_t kMostRecordBytes = std::uint64_t{16} << 20;
 
-/// The source and its recorded dependencies, which are relative to its folder; nullopt if the content of one has
-/// changed.
-std::optional<std::vector<std::filesystem::path>> unchanged(const CookRecord& record, const AssetType& type,
-                                                            const std::filesystem::path& source) {
+/// The paths relative to the source's folder.
+std::vector<std::filesystem::path> beside(const std::filesystem::path& source,
+                                          std::span<const std::filesystem::path> files) {
+    std::vector<std::filesystem::path> names;
+    for (const std::filesystem::path& file : files) names.push_back(file.lexically_proximate(source.parent_path()));
+    return names;
+}
+
+/// The files of a record, the source first. Nullopt if `hash_of` their present contents is not the recorded one.
+std::optional<std::vector<std::filesystem::path>> unchanged(
+    const CookRecord& record, const std::filesystem::path& source,
+    const std::function<Hash128(std::span<const Hash128>)>& hash_of) {
     std::vector<std::filesystem::path> files{source};
     for (std::size_t i = 1; i < record.dependencies.size(); ++i)
         files.push_back(source.parent_path() / record.dependencies[i]);
@@ -130,7 +139,7 @@ std::optional<std::vector<std::filesystem::path>> unchanged(const CookRecord& re
         if (!hash) return std::nullopt;
         hashes.push_back(*hash);
     }
-    if (content_hash(type, hashes).hex() != record.content_hash) return std::nullopt;
+    if (hash_of(hashes).hex() != record.content_hash) return std::nullopt;
     return files;
 }
 
@@ -161,6 +170,51 @@ std::optional<CookRecord> read_cook_record(const std::filesystem::path& file) {
     return std::nullopt;
 }
 
+std::vector<std::byte> cook_part(Context& context, const std::string& key,
+                                 const std::function<std::vector<std::byte>(Context&)>& make) {
+    const std::filesystem::path& folder = context.parts_folder();
+    if (folder.empty()) return make(context);
+    const std::filesystem::path& source = context.source();
+    // The source's own content is no part of it: what the part takes from it is in the key.
+    const auto hash_of = [&](std::span<const Hash128> dependencies) {
+        Hasher hasher;
+        hasher.text(tool_version()).text(key);
+        for (const Hash128& dependency : dependencies.subspan(1)) hasher.text(dependency.hex());
+        return hasher.digest();
+    };
+    const std::filesystem::path record_file =
+        folder / (Hasher().text(tool_version()).text(key).digest().hex() + ".json");
+    const auto file_of = [&](const std::string& content) { return folder / (content + ".part"); };
+    if (const std::optional<CookRecord> record = read_cook_record(record_file))
+        if (const auto files = unchanged(*record, source, hash_of);
+            files && std::filesystem::exists(file_of(record->content_hash))) {
+            std::vector<std::byte> bytes = read_file(file_of(record->content_hash), kMaximumHashedBytes);
+            if (Hasher().bytes(bytes).digest().hex() == record->output_hash) {
+                for (const std::filesystem::path& file : *files) context.depend_on(file);
+                return bytes;
+            }
+        }
+    Context part(source);
+    std::vector<std::byte> bytes = make(part);
+    context.depend_on_all_of(part);
+    std::vector<Hash128> hashes;
+    for (const std::optional<Hash128>& hash : part.fingerprints()) {
+        if (!hash) return bytes;  // a file that could not be read
+        hashes.push_back(*hash);
+    }
+    const CookRecord record{.cooker = {},
+                            .dependencies = beside(source, part.dependencies()),
+                            .content_hash = hash_of(hashes).hex(),
+                            .output_hash = Hasher().bytes(bytes).digest().hex()};
+    write_file_atomic(file_of(record.content_hash), bytes);
+    write_cook_record(record_file, record);
+    return bytes;
+}
+
+std::filesystem::path parts_folder(const std::filesystem::path& cache_folder) {
+    return cache_folder / "parts";
+}
+
 std::filesystem::path cook_once(const Registry& registry, const std::filesystem::path& source,
                                 const std::filesystem::path& cache_folder,
                                 std::vector<std::filesystem::path>& read_files) {
@@ -174,17 +228,17 @@ std::filesystem::path cook_once(const Registry& registry, const std::filesystem:
     const auto output_of = [&](const std::string& content) { return cache_folder / (content + type->extension); };
     const std::filesystem::path record_file = cache_folder / (source_hash->hex() + ".json");
     if (const std::optional<CookRecord> record = read_cook_record(record_file))
-        if (auto files = unchanged(*record, *type, source);
+        if (auto files = unchanged(*record, source, [&](auto hashes) { return content_hash(*type, hashes); });
             files && std::filesystem::exists(output_of(record->content_hash))) {
             read_files = std::move(*files);
             return output_of(record->content_hash);
         }
     log_info("cooking {}", source.string());
-    BakedAsset baked = bake_source(registry, source);
-    CookRecord record{
-        .cooker = {}, .dependencies = {}, .content_hash = baked.asset.header.content_hash.hex(), .output_hash = {}};
-    for (const std::filesystem::path& path : baked.dependencies)
-        record.dependencies.push_back(path.lexically_proximate(source.parent_path()));
+    BakedAsset baked = bake_source(registry, source, parts_folder(cache_folder));
+    const CookRecord record{.cooker = {},
+                            .dependencies = beside(source, baked.dependencies),
+                            .content_hash = baked.asset.header.content_hash.hex(),
+                            .output_hash = {}};
     const std::filesystem::path output = output_of(record.content_hash);
     write_file_atomic(output, asset::pack(baked.asset));
     write_cook_record(record_file, record);

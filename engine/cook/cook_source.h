@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -34,14 +35,17 @@ Hash128 content_hash(const AssetType& type, std::span<const Hash128> dependencie
 
 /// Bakes `source`. The content hash is over the tool's version, the type's name and version and the bytes of all files
 /// read, in the order they were first mentioned; paths are no part of it, so that it is the same on every machine.
-/// Throws Error (input) if the source is refused, Error (system) if a file changed while it was being read.
-BakedAsset bake_source(const Registry& registry, const std::filesystem::path& source);
+/// `parts_folder`: see cook_part(). Throws Error (input) if the source is refused, Error (system) if a file changed
+/// while it was being read.
+BakedAsset bake_source(const Registry& registry, const std::filesystem::path& source,
+                       const std::filesystem::path& parts_folder = {});
 
 /// How many sources this process has begun to bake.
 std::uint64_t sources_baked();
 
 struct CookSettings {
     std::optional<std::filesystem::path> depfile;  ///< Makefile-syntax list of everything the output was made from
+    std::filesystem::path parts_folder = {};       ///< see cook_part()
 };
 
 /// Bakes `source` and writes `output`, then the depfile: each whole or, if anything fails, not at all. It always bakes;
@@ -66,10 +70,20 @@ void write_cook_record(const std::filesystem::path& file, const CookRecord& reco
 /// nullopt if there is no such file or it is not a record: then the source is to be cooked.
 std::optional<CookRecord> read_cook_record(const std::filesystem::path& file);
 
+/// The result of `make`, such as a grating's tables in a scene. It is taken from the context's folder of parts if it
+/// was made there for an equal `key`, which names all that it depends on but files, from files of the same content;
+/// else it is made and kept there. `make` reads files other than the source through the context that it is given.
+/// Several processes may call it at once.
+std::vector<std::byte> cook_part(Context& context, const std::string& key,
+                                 const std::function<std::vector<std::byte>(Context&)>& make);
+
+/// Where cook_once() keeps its parts.
+std::filesystem::path parts_folder(const std::filesystem::path& cache_folder);
+
 /// The cooked file of `source` in a cache: cooked now, unless a file there was cooked from the same content of the
 /// source and of all its dependencies, in whatever folder the source was. Replaces `read_files` by the dependencies, or
 /// if it throws adds `source`. Several processes may call it at once. Throws Error as bake_source() and
-/// write_file_atomic() do.
+/// write_file_atomic() do. Its parts are kept in parts_folder().
 std::filesystem::path cook_once(const Registry& registry, const std::filesystem::path& source,
                                 const std::filesystem::path& cache_folder,
                                 std::vector<std::filesystem::path>& read_files);

@@ -14,8 +14,9 @@ using FileClock = std::filesystem::file_time_type::clock;
 
 }  // namespace
 
-Recooker::Recooker(const Registry& registry, std::vector<Job> jobs, std::chrono::milliseconds interval)
-    : registry_(registry), interval_(interval) {
+Recooker::Recooker(const Registry& registry, std::vector<Job> jobs, std::filesystem::path parts_folder,
+                   std::chrono::milliseconds interval)
+    : registry_(registry), parts_folder_(std::move(parts_folder)), interval_(interval) {
     for (Job& job : jobs) {
         Watched& watched = watched_.emplace_back();
         watched.watch = asset::FileWatch({job.source});
@@ -63,7 +64,9 @@ void Recooker::adopt(Watched& watched) {
 Recooker::Result Recooker::cook(const Job& job, std::vector<std::filesystem::path> watched) const {
     const auto started = FileClock::now();
     try {
-        return {asset::FileWatch(cook_source(registry_, job.source, job.output).dependencies, started), {}};
+        const BakedAsset baked =
+            cook_source(registry_, job.source, job.output, {.depfile = {}, .parts_folder = parts_folder_});
+        return {asset::FileWatch(baked.dependencies, started), {}};
     } catch (const std::exception& error) {
         return {asset::FileWatch(std::move(watched), started), error.what()};
     }

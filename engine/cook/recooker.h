@@ -20,8 +20,8 @@ class Recooker {
         std::filesystem::path output;
     };
 
-    /// The registry must outlive the Recooker.
-    Recooker(const Registry& registry, std::vector<Job> jobs,
+    /// The registry must outlive the Recooker. `parts_folder`: see cook_part().
+    Recooker(const Registry& registry, std::vector<Job> jobs, std::filesystem::path parts_folder = {},
              std::chrono::milliseconds interval = std::chrono::milliseconds(50));
 
     /// Starts cooking what has changed; call it every frame.
@@ -49,6 +49,7 @@ class Recooker {
     void adopt(Watched& watched);
 
     const Registry& registry_;
+    std::filesystem::path parts_folder_;
     std::vector<Watched> watched_;
     std::chrono::milliseconds interval_;
     std::chrono::steady_clock::time_point last_look_ = {};

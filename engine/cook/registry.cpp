@@ -31,6 +31,19 @@ void Context::depend_on(const std::filesystem::path& path) {
     fingerprints_.push_back(hash_dependency(path));
 }
 
+void Context::depend_on_all_of(const Context& part) {
+    for (std::size_t i = 0; i < part.dependencies_.size(); ++i) {
+        const std::filesystem::path& path = part.dependencies_[i];
+        const auto known = std::find(dependencies_.begin(), dependencies_.end(), path);
+        if (known == dependencies_.end()) {
+            dependencies_.push_back(path);
+            fingerprints_.push_back(part.fingerprints_[i]);
+        } else if (fingerprints_[static_cast<std::size_t>(known - dependencies_.begin())] != part.fingerprints_[i]) {
+            fail_changed(path);
+        }
+    }
+}
+
 std::vector<std::byte> Context::read(const std::filesystem::path& path, std::uint64_t max_bytes,
                                      const std::string& remedy) {
     depend_on(path);

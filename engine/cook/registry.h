@@ -29,14 +29,22 @@ std::optional<Hash128> hash_dependency(const std::filesystem::path& path);
 /// complete.
 class Context {
  public:
-    explicit Context(std::filesystem::path source) : source_(std::move(source)) { depend_on(source_); }
+    /// `parts_folder`: where cook_part() keeps its results; empty: nowhere.
+    explicit Context(std::filesystem::path source, std::filesystem::path parts_folder = {})
+        : source_(std::move(source)), parts_folder_(std::move(parts_folder)) {
+        depend_on(source_);
+    }
 
     const std::filesystem::path& source() const { return source_; }
+    const std::filesystem::path& parts_folder() const { return parts_folder_; }
     /// A path named inside the source, relative to the source's folder.
     std::filesystem::path beside_source(const std::string& name) const { return source_.parent_path() / name; }
     /// Records that the result depends on `path`, and the file's present hash. Call it before reading the file. It does
     /// not throw if the file is missing or unreadable: an optional one may be missing, and reading refuses any other.
     void depend_on(const std::filesystem::path& path);
+    /// Depends on all that `part`, a context of the same source, depends on. Throws Error (system) if a file has
+    /// changed between the two.
+    void depend_on_all_of(const Context& part);
     /// Each file once, in the order of the first mention; the source comes first.
     const std::vector<std::filesystem::path>& dependencies() const { return dependencies_; }
     /// hash_dependency() of each of `dependencies()` when it was first mentioned.
@@ -53,6 +61,7 @@ class Context {
 
  private:
     std::filesystem::path source_;
+    std::filesystem::path parts_folder_;
     std::vector<std::filesystem::path> dependencies_;
     std::vector<std::optional<Hash128>> fingerprints_;
 };
@@ -101,6 +110,9 @@ struct GltfExtension {
     std::uint32_t version = 0;  ///< raise it whenever the tables' layout or the bake's result changes
     /// The tables that drawing an extension takes. Deterministic like AssetType::cook. Empty function: it takes none.
     std::function<std::vector<std::byte>(Context&, const SceneExtension&)> cook;
+    /// What the tables depend on besides the files that `cook` reads: of the object, and of the scene. Scenes for which
+    /// it is equal share tables, cook_part(). Empty function: they are cooked anew with every scene.
+    std::function<std::string(const SceneExtension&)> part_key = {};
     /// Describes the tables, a "name: value" line each. Empty only where `cook` is.
     std::function<std::string(std::span<const std::byte> tables, const std::string& file)> describe_tables;
 

@@ -12,6 +12,12 @@
 
 namespace rowland::live {
 
+namespace {
+
+constexpr const char* kScenes = "scenes";  ///< folder of cooked scenes in the cache
+
+}  // namespace
+
 std::vector<std::byte> LiveAssets::payload(const cook::Registry& registry, const std::filesystem::path& path,
                                            const std::string& type, Files& files) {
     const cook::AssetType* known = registry.find(type);
@@ -47,7 +53,8 @@ LiveAssets::LiveAssets(std::shared_ptr<const cook::Registry> registry, LiveAsset
       dome_(settings.dome),
       cache_folder_(settings.cache_folder.empty() ? default_cache_folder() : std::move(settings.cache_folder)),
       registry_(std::move(registry)) {
-    if (settings.watch) recooker_.emplace(*registry_, std::move(settings.follow_also));
+    if (settings.watch)
+        recooker_.emplace(*registry_, std::move(settings.follow_also), cook::parts_folder(cache_folder_ / kScenes));
 }
 
 asset::Handle<lighting::LightProbe> LiveAssets::probe(const std::filesystem::path& path) {
@@ -62,7 +69,7 @@ scene::ImportedScene load_scene(const cook::Registry& registry, const std::files
                                 std::vector<std::filesystem::path>& read_files) {
     const bool cooked = path.extension() == ".scene";
     const std::filesystem::path file =
-        cooked ? path : cook::cook_once(registry, path, cache_folder / "scenes", read_files);
+        cooked ? path : cook::cook_once(registry, path, cache_folder / kScenes, read_files);
     if (cooked) read_files.push_back(path);
     const cook::AssetType* type = registry.find(scene::kSceneAssetType);
     ROWLAND_CHECK(type != nullptr, "scenes are loaded with their type");

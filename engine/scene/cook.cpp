@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "engine/asset/container.h"
+#include "engine/cook/cook_source.h"
 #include "engine/core/byte_stream.h"
 #include "engine/core/check.h"
 #include "engine/core/error.h"
@@ -136,6 +137,12 @@ void for_each_extension(const ImportedScene& scene, std::span<const cook::GltfEx
                 visit(i, extension, found->second);
 }
 
+Bytes cook_table(cook::Context& context, const cook::GltfExtension& extension, const cook::SceneExtension& at) {
+    if (!extension.part_key) return extension.cook(context, at);
+    return cook::cook_part(context, fmt::format("{} {}\n{}", extension.name, extension.version, extension.part_key(at)),
+                           [&](cook::Context& part) { return extension.cook(part, at); });
+}
+
 SceneTables cook_tables(cook::Context& context, const ImportedScene& scene,
                         std::span<const cook::GltfExtension> extensions) {
     std::size_t count = 0;
@@ -146,7 +153,7 @@ SceneTables cook_tables(cook::Context& context, const ImportedScene& scene,
                        [&](std::size_t material, const cook::GltfExtension& extension, const nlohmann::json& object) {
                            const std::string pointer = pointer_of(material, extension.name);
                            if (extension.cook) {
-                               Bytes table = extension.cook(context, {object, pointer, scene, material});
+                               Bytes table = cook_table(context, extension, {object, pointer, scene, material});
                                const auto same = std::ranges::find(cooked.tables, table);
                                cooked.uses.push_back(
                                    {material, extension.name, static_cast<std::size_t>(same - cooked.tables.begin())});

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <glm/geometric.hpp>
 #include <optional>
 #include <utility>
@@ -144,6 +145,21 @@ std::optional<GroovePitches> pitches_of(const GltfGrating& grating, const cook::
     return groove_pitches(*extension.scene.images[extension.scene.textures[index].image]);
 }
 
+/// GltfExtension::part_key. The grooves' rotation is the surface's.
+std::string part_key(const cook::SceneExtension& extension) {
+    nlohmann::json object = extension.object;
+    object.erase("grooveRotation");
+    std::string key = object.dump() + (is_flat(extension.scene, extension.material) ? " flat" : " curved");
+    if (const auto use = extension.object.find("grooveTexture"); use != extension.object.end()) {
+        const nlohmann::json index = use->is_object() ? use->value("index", nlohmann::json()) : nlohmann::json();
+        const auto& textures = extension.scene.textures;
+        if (index.is_number_integer() && index >= 0 && index < textures.size())
+            if (const auto& image = extension.scene.images[textures[index.get<std::size_t>()].image])
+                key += ' ' + Hasher().bytes(std::as_bytes(std::span(image->rgba))).digest().hex();
+    }
+    return key;
+}
+
 /// Cooks a grating of a scene. Errors are measured without the groove texture.
 std::vector<std::byte> cook_extension(cook::Context& context, const cook::SceneExtension& extension) {
     const std::string file = context.source().string();
@@ -213,6 +229,7 @@ cook::GltfExtension gltf_extension() {
     };
     extension.version = kGltfTablesVersion + kMaterialAssetVersion;
     extension.cook = cook_extension;
+    extension.part_key = part_key;
     extension.describe_tables = [](std::span<const std::byte> tables, const std::string& file) {
         return describe(read_gltf_tables(tables, file));
     };

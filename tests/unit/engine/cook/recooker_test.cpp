@@ -33,7 +33,9 @@ class RecookerTest : public test::FolderTest {
         }
         recooker.poll();
     }
-    Recooker make() { return Recooker(registry_, {{path("a.tiles"), path("a.cooked")}}, std::chrono::milliseconds(0)); }
+    Recooker make() {
+        return Recooker(registry_, {{path("a.tiles"), path("a.cooked")}}, {}, std::chrono::milliseconds(0));
+    }
     Registry registry_;
     int writes_ = 0;
 };

@@ -259,6 +259,45 @@ TEST_F(CookedScene, HasTheTablesOfEachExtensionAndEqualOnesOnce) {
     EXPECT_THAT(type().describe_source(context), HasSubstr("material: 0 \"a\"\nextension: TEST_colour\nobject: red\n"));
 }
 
+TEST_F(CookedScene, TakesTablesOfEarlierCooksOfTheSameParts) {
+    int made = 0;
+    cook::Registry registry;
+    cook::GltfExtension extension = colour_extension();
+    extension.part_key = [](const cook::SceneExtension& at) { return at.object.value("colour", ""); };
+    extension.cook = [&made, make = extension.cook](cook::Context& context, const cook::SceneExtension& at) {
+        ++made;
+        return make(context, at);
+    };
+    registry.add_gltf_extension(extension);
+    register_scene_type(registry);
+    const auto makes = [&](const std::filesystem::path& source) {
+        made = 0;
+        cook::Context context(source, folder_.path() / "parts");
+        const std::vector<std::byte> payload = registry.find(kSceneAssetType)->cook(context);
+        EXPECT_EQ(payload, cook(source));  // anew
+        EXPECT_THAT(context.dependencies(), testing::ElementsAre(source, source.parent_path() / "shade.txt"));
+        return made;
+    };
+    EXPECT_EQ(makes(scene_), 2);  // red and blue
+    EXPECT_EQ(makes(scene_), 0);
+    const std::filesystem::path other = folder_.path() / "elsewhere" / "t.gltf";
+    write_file_atomic(other.parent_path() / "shade.txt", "dark ");
+    write_file_atomic(other, R"({"asset": {"version": "2.0"}, "materials": [
+        {"extensions": {"TEST_colour": {"colour": "green"}}}, {"extensions": {"TEST_colour": {"colour": "blue"}}}]})");
+    EXPECT_EQ(makes(other), 1);
+    write_file_atomic(folder_.path() / "shade.txt", "pale ");
+    EXPECT_EQ(makes(scene_), 2);
+    for (const auto& file : std::filesystem::directory_iterator(folder_.path() / "parts"))
+        if (file.path().extension() == ".part") write_file_atomic(file.path(), "damaged");
+    EXPECT_EQ(makes(scene_), 2);
+    EXPECT_EQ(makes(scene_), 0);
+    std::filesystem::remove(folder_.path() / "shade.txt");
+    cook::Context refused(scene_, folder_.path() / "parts");
+    EXPECT_THROW(registry.find(kSceneAssetType)->cook(refused), Error);
+    write_file_atomic(folder_.path() / "shade.txt", "pale ");
+    EXPECT_EQ(makes(scene_), 0);
+}
+
 TEST_F(CookedScene, IsOfAnotherVersionWhenAnExtensionIs) {
     cook::Registry newer;
     cook::GltfExtension extension = colour_extension();

@@ -3,6 +3,9 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include <memory>
+#include <set>
+
 #include "engine/core/json_reader.h"
 #include "engine/lighting/probe_recipe.h"
 #include "engine/scene/imported_scene.h"
@@ -207,6 +210,30 @@ TEST_F(GratingInScene, AStatedBudgetOutOfReachIsRefusedByItsPointer) {
                     tables({{"max_error", 1e-6}, {"surface", "curved"}, {"probes", {"room.json"}}});
                 }),
                 HasSubstr("/materials/0/extensions/E/quality/max_error"));
+}
+
+TEST_F(GratingInScene, ItsPartIsAnotherForAnotherShapeObjectOrTexture) {
+    const auto key = [&](const nlohmann::json& object) {
+        return extension().part_key({object, "/materials/0/extensions/E", scene_, 0});
+    };
+    const nlohmann::json plain = {{"grating", {{"pitch_nm", 1600}}}, {"grooveRotation", 0.5}};
+    const nlohmann::json textured = {{"grating", {{"pitch_nm", 1600}}}, {"grooveTexture", {{"index", 0}}}};
+    nlohmann::json turned = plain;
+    turned["grooveRotation"] = 1.5;
+    EXPECT_EQ(key(plain), key(turned));
+    std::set<std::string> keys = {key(plain),
+                                  key(textured),
+                                  key({{"grating", {{"pitch_nm", 1601}}}}),
+                                  key({{"grooveTexture", 3}}),
+                                  key({{"grooveTexture", {{"index", 9}}}}),
+                                  key({{"grooveTexture", {{"index", "x"}}}})};
+    auto texture = std::make_shared<image::ByteImage>(*scene_.images[0]);
+    texture->rgba[1] = 101;
+    scene_.images[0] = texture;
+    keys.insert(key(textured));
+    scene_.meshes[0].normals[1] = {1.0F, 0.0F, 0.0F};
+    keys.insert({key(plain), key(textured)});
+    EXPECT_EQ(keys.size(), 9U);
 }
 
 TEST_F(GratingInScene, WithATextureHasTablesForItsPitches) {
