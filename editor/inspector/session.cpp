@@ -1,10 +1,13 @@
 #include "editor/inspector/session.h"
 
+#include <fmt/format.h>
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <cstring>
+#include <future>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -19,6 +22,27 @@ namespace {
 /// are grazing somewhere on it: only there the finest grooves diffract visible light and the coarsest reflect a streak.
 PreviewShape shape_of_preset(const std::string& name) {
     return name.starts_with("cd") || name == "dvd" ? PreviewShape::Disc : PreviewShape::Sheet;
+}
+
+/// Starts a program that lies beside this one. Returns its exit code when it ends, −1 if a signal ended it. Throws
+/// Error (system) if it cannot be started.
+std::future<int> start_beside(const char* name, std::vector<std::string> arguments) {
+    const auto program = std::filesystem::read_symlink("/proc/self/exe").parent_path() / name;
+    arguments.insert(arguments.begin(), program.string());
+    std::vector<char*> pointers;
+    for (std::string& argument : arguments) pointers.push_back(argument.data());
+    pointers.push_back(nullptr);
+    pid_t process = -1;
+    const int code = posix_spawn(&process, program.c_str(), nullptr, nullptr, pointers.data(), environ);
+    if (code != 0) fail_system(program.string(), std::strerror(code), "build or install it beside this program");
+    std::promise<int> exit_code;
+    std::future<int> result = exit_code.get_future();
+    std::thread([process, ended = std::move(exit_code)]() mutable {
+        int status = 0;
+        waitpid(process, &status, 0);
+        ended.set_value(WIFEXITED(status) ? WEXITSTATUS(status) : -1);
+    }).detach();
+    return result;
 }
 
 }  // namespace
@@ -47,24 +71,42 @@ void Session::open_preset(const std::string& name) {
 void Session::open_in_demo() {
     messages.attempt([&] {
         std::vector<std::string> arguments = opened.demo_arguments();
-        const auto program = std::filesystem::read_symlink("/proc/self/exe").parent_path() / "rowland-demo";
-        arguments.insert(arguments.begin(), program.string());
         if (light.current())
             arguments.insert(arguments.end(), {"--probe", std::filesystem::absolute(light.current()->path).string()});
-        std::vector<char*> pointers;
-        for (std::string& argument : arguments) pointers.push_back(argument.data());
-        pointers.push_back(nullptr);
-        pid_t process = -1;
-        const int code = posix_spawn(&process, program.c_str(), nullptr, nullptr, pointers.data(), environ);
-        if (code != 0)
-            fail_system(program.string(), std::strerror(code), "build or install the demo beside this program");
-        std::thread([process] { waitpid(process, nullptr, 0); }).detach();  // or the closed demo stays as a zombie
+        start_beside("rowland-demo", std::move(arguments));
         messages.say("the demo starts");
     });
 }
 
+std::size_t Session::boxes() const {
+    return opened.scene() != nullptr ? opened.scene()->imported.probes.size() : 0;
+}
+
+void Session::capture_probes() {
+    messages.attempt([&] {
+        if (boxes() == 0 || capturing() || !light.current()) return;
+        if (opened.document().dirty())
+            refuse_input(opened.document().name(), "", "unsaved changes",
+                         "a saved scene, as the capture draws the file", "save it");
+        capture_ = start_beside("rowland-cook", {"capture", std::filesystem::absolute(opened.scene()->file).string(),
+                                                 "--probe", std::filesystem::absolute(light.current()->path).string()});
+        messages.say(fmt::format("capturing the light of {} {}", boxes(), boxes() == 1 ? "box" : "boxes"));
+    });
+}
+
+bool Session::take_capture() {
+    if (!capturing() || capture_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return false;
+    const int code = capture_.get();
+    if (code == 0)
+        messages.say("the boxes' light is captured; the demo shows it");
+    else
+        messages.say(fmt::format("the capture failed with exit code {}; the terminal says why", code), true);
+    return true;
+}
+
 bool Session::update() {
     bool news = opened.update();
+    news = take_capture() || news;
     view.update();
     news = light.update() || news;
     news = measurement.update() || news;

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
+#include <future>
 #include <string>
 
 #include "editor/inspector/cooked_surfaces.h"
@@ -41,12 +43,23 @@ struct Session {
     /// Starts the demo, which shows the document as edited under the session's light.
     void open_in_demo();
 
+    /// Number of the scene's boxes with a light probe of their own.
+    std::size_t boxes() const;
+    /// Captures their light again from the scene as saved, under the session's light, by `rowland-cook capture` in the
+    /// background.
+    void capture_probes();
+    bool capturing() const { return capture_.valid(); }
+
     /// Returns whether there is a new result or message, or background work began or ended.
     bool update();
     /// Whether background work for the picture or the panes is not complete.
-    bool busy() const { return opened.busy() || light.loading() || measurement.busy(); }
+    bool busy() const { return opened.busy() || light.loading() || measurement.busy() || capturing(); }
 
  private:
+    /// Says how a capture that has ended went. Returns whether one has.
+    bool take_capture();
+
+    std::future<int> capture_;
     bool was_busy_ = false;  ///< after the last update
 };
 

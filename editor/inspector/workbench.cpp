@@ -168,6 +168,8 @@ std::vector<Command> Workbench::commands() {
          {},
          [this] { session_.open_in_demo(); },
          document.is_scene() || document.has_grating()},
+        {"File", "Capture the boxes' light", "F9", Key::F9, [this] { session_.capture_probes(); },
+         session_.boxes() > 0 && !session_.capturing()},
         {"File", ""},
         {"File", "Quit", "Ctrl+Q", Key::Q, [this] { ask_to_close(); }},
         {"Edit", "Undo", "Ctrl+Z", Key::Z, [&document] { document.undo(); }, document.can_undo()},

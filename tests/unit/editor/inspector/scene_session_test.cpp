@@ -267,5 +267,41 @@ TEST_F(SceneSession, AsksBeforeItSavesOverAFileThatAnotherProgramChanged) {
     EXPECT_NE(read_file(path("spheres.glb"), 1 << 24), again);
 }
 
+TEST_F(SceneSession, CapturesTheLightOfItsBoxesAgain) {
+    EXPECT_EQ(session_.boxes(), 0U);
+    const auto glb = [](double distance) {
+        nlohmann::json file = {{"asset", {{"version", "2.0"}}}, {"extensionsUsed", {"ROWLAND_light_probe"}}};
+        nlohmann::json primitive =
+            scene::test::primitive_of(file, scene::build_mesh(scene::SphereRecipe{.radius = 0.5}));
+        file["meshes"] = {{{"primitives", {primitive}}}};
+        file["nodes"] = {{{"mesh", 0}, {"translation", {distance, 0, 0}}},
+                         {{"name", "hall"},
+                          {"extensions", {{"ROWLAND_light_probe", {{"size_m", {4, 4, 4}}, {"probe", "hall.probe"}}}}}}};
+        file["scenes"] = {{{"nodes", {0, 1}}}};
+        return scene::test::glb_of(file);
+    };
+    const auto capture = [&](double distance) {
+        write_file_atomic(path("hall.glb"), glb(distance));
+        session_.open(path("hall.glb"));
+        draw_until(
+            [&] { return session_.boxes() == 1 && session_.opened.opening().empty() && session_.light.current(); });
+        session_.capture_probes();
+        EXPECT_TRUE(session_.capturing() && session_.busy());
+        draw_until([&] { return !session_.capturing(); });
+        EXPECT_THAT(last_message().text, HasSubstr("captured"));
+        return read_file(path("hall.probe"), 1 << 26);
+    };
+    const auto near = capture(1.0);
+    EXPECT_NE(near, capture(5.0));
+    write_file_atomic(path("hall.glb"), std::vector<std::byte>(5));  // another program damages it
+    session_.capture_probes();
+    draw_until([&] { return !session_.capturing(); });
+    EXPECT_TRUE(last_message().failure);
+    EXPECT_THAT(last_message().text, HasSubstr("exit code 2"));
+    session_.opened.close_scene();
+    session_.capture_probes();
+    EXPECT_FALSE(session_.capturing());
+}
+
 }  // namespace
 }  // namespace rowland::inspector
