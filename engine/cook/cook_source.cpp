@@ -195,7 +195,13 @@ std::vector<std::byte> cook_part(Context& context, const std::string& key,
             }
         }
     Context part(source);
-    std::vector<std::byte> bytes = make(part);
+    std::vector<std::byte> bytes;
+    try {
+        bytes = make(part);
+    } catch (...) {
+        context.depend_on_all_of(part);  // a file that is missing, too
+        throw;
+    }
     context.depend_on_all_of(part);
     std::vector<Hash128> hashes;
     for (const std::optional<Hash128>& hash : part.fingerprints()) {

@@ -111,7 +111,7 @@ struct GltfExtension {
     /// The tables that drawing an extension takes. Deterministic like AssetType::cook. Empty function: it takes none.
     std::function<std::vector<std::byte>(Context&, const SceneExtension&)> cook;
     /// What the tables depend on besides the files that `cook` reads: of the object, and of the scene. Scenes for which
-    /// it is equal share tables, cook_part(). Empty function: they are cooked anew with every scene.
+    /// it is equal share tables, cook_part(). Empty function: they are cooked with every scene.
     std::function<std::string(const SceneExtension&)> part_key = {};
     /// Describes the tables, a "name: value" line each. Empty only where `cook` is.
     std::function<std::string(std::span<const std::byte> tables, const std::string& file)> describe_tables;

@@ -1,5 +1,5 @@
 // A walk through the three rooms: how the picture changes from frame to frame under many probes, and how far gratings
-// are from the reference under the light of their place.
+// are from the reference under the light of their position.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
@@ -59,7 +59,7 @@ struct Options {
     std::filesystem::path scene;
     glm::ivec2 size{320, 180};
     int frames = 200;  ///< through a door
-    int places = 64;
+    int stops = 64;
     int face_size = 64;  ///< of the captured light
 };
 
@@ -239,9 +239,9 @@ void walk_through_doors(const Options& options) {
     }
 }
 
-/// A point of a grating that is seen from a place of the walk.
+/// A point of a grating that is seen from a stop of the walk.
 struct SeenPoint {
-    int place = 0;
+    int stop = 0;
     std::shared_ptr<const diffraction::CookedMaterial> cooked;
     diffraction::GrooveLayout layout{};
     diffraction::ShadingPoint frame;
@@ -251,7 +251,7 @@ struct SeenPoint {
     glm::dvec3 reference{0.0};  ///< under the mixed light
 };
 
-/// At most `kPoints` points per place, each of another grating without a groove texture.
+/// At most `kPoints` points per stop, each of another grating without a groove texture.
 std::vector<SeenPoint> seen_points(Rooms& rooms, const Options& options) {
     constexpr glm::ivec2 kTexels(64, 36);
     constexpr std::size_t kPoints = 4;
@@ -266,10 +266,10 @@ std::vector<SeenPoint> seen_points(Rooms& rooms, const Options& options) {
         });
     std::vector<SeenPoint> points;
     std::mt19937 random(7);
-    for (int place = 0; place < options.places; ++place) {
+    for (int stop = 0; stop < options.stops; ++stop) {
         const float x =
-            kBegin_m + (kEnd_m - kBegin_m) * (static_cast<float>(place) + 0.5F) / static_cast<float>(options.places);
-        const scene::Camera camera = camera_at(x, kForward[static_cast<std::size_t>(place) % kForward.size()]);
+            kBegin_m + (kEnd_m - kBegin_m) * (static_cast<float>(stop) + 0.5F) / static_cast<float>(options.stops);
+        const scene::Camera camera = camera_at(x, kForward[static_cast<std::size_t>(stop) % kForward.size()]);
         auto texels = demo::visible_points(camera, kTexels, meshes);
         std::ranges::shuffle(texels, random);
         std::vector<std::size_t> taken;
@@ -283,7 +283,7 @@ std::vector<SeenPoint> seen_points(Rooms& rooms, const Options& options) {
             if (!frame) continue;
             const auto& instance = rooms.world().get<render::MeshInstance>(entity);
             const scene::Bounds bounds = render::transformed(instance.gpu->bounds(), grating->to_world);
-            SeenPoint point{.place = place,
+            SeenPoint point{.stop = stop,
                             .cooked = surface->material->cooked(),
                             .layout = diffraction::groove_layout(*grating->mesh, false, false),
                             .frame = *frame,
@@ -339,7 +339,7 @@ struct Errors {
     }
 };
 
-void compare_places(const Options& options) {
+void compare_at_stops(const Options& options) {
     Rooms rooms(options, std::nullopt);
     std::vector<SeenPoint> points = seen_points(rooms, options);
     rooms.remove_boxes();
@@ -352,7 +352,7 @@ void compare_places(const Options& options) {
     Errors between;
     Errors captured_one;
     Errors captured_two;
-    std::map<int, Errors> of_place;
+    std::map<int, Errors> of_stop;
     Progress progress("capturing", points.size());
     for (const SeenPoint& point : points) {
         const auto add = [&](Errors& errors) {
@@ -360,7 +360,7 @@ void compare_places(const Options& options) {
             errors.reference.push_back(point.reference);
         };
         add(all);
-        add(of_place[point.place]);
+        add(of_stop[point.stop]);
         if (point.light.has_second()) add(between);
         Errors& captured = point.light.has_second() ? captured_two : captured_one;
         captured.shown.push_back(point.reference);
@@ -368,14 +368,14 @@ void compare_places(const Options& options) {
             render::capture_surroundings(rooms.renderer(), rooms.world(), point.centre, options.face_size), point));
         progress.advance();
     }
-    std::printf("\n%-64s %6s %11s\n", "relative RMS error of gratings' XYZ in so many places", "points", "");
+    std::printf("\n%-64s %6s %11s\n", "relative RMS error of gratings' XYZ, so many", "points", "");
     all.print("against the reference under their probes' light");
     between.print("of these, of objects between two probes");
     captured_one.print("reference under one probe against that under the object's own");
     captured_two.print("reference under two, mixed, against that under the object's own");
     std::vector<double> errors;
-    for (const auto& [place, of] : of_place) errors.push_back(diffraction::relative_rms(of.shown, of.reference));
-    std::printf("places: %zu, median %.2f %%, worst %.2f %%\n", errors.size(),
+    for (const auto& [stop, of] : of_stop) errors.push_back(diffraction::relative_rms(of.shown, of.reference));
+    std::printf("stops: %zu, median %.2f %%, worst %.2f %%\n", errors.size(),
                 100.0 * diffraction::quantile(errors, 0.5), 100.0 * diffraction::quantile(errors, 1.0));
 }
 
@@ -389,7 +389,8 @@ int run(int argc, char** argv) {
     app.add_option("--frames", options.frames, "Frames through each door; 0: skip them")
         ->check(CLI::Range(0, 10000))
         ->capture_default_str();
-    app.add_option("--places", options.places, "Places in which gratings are compared with the reference; 0: none")
+    app.add_option("--stops", options.stops,
+                   "Stops of the walk at which gratings are compared with the reference; 0: none")
         ->check(CLI::Range(0, 10000))
         ->capture_default_str();
     app.add_option("--width", options.size.x, "Width in pixels")->check(CLI::Range(16, 8192))->capture_default_str();
@@ -399,7 +400,7 @@ int run(int argc, char** argv) {
         fail_system(options.scene.string(), "no such file", "build it: ./rowland rooms --help");
     const platform::HeadlessContext context;
     if (options.frames > 0) walk_through_doors(options);
-    if (options.places > 0) compare_places(options);
+    if (options.stops > 0) compare_at_stops(options);
     return 0;
 }
 

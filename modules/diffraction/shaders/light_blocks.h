@@ -40,8 +40,8 @@ ROWLAND_BLOCK(7, LightColourBlock) {
 };
 #endif
 #ifdef __cplusplus
-static_assert(sizeof(KeyLobeBlock) == 16 + 112 * ROWLAND_MAXIMUM_KEY_LOBES &&
-                  sizeof(LightColourBlock) == 16 * ROWLAND_MAXIMUM_LIGHTS,
+static_assert(sizeof(KeyLobeBlock) == 16 + std::size_t{112} * ROWLAND_MAXIMUM_KEY_LOBES &&
+                  sizeof(LightColourBlock) == std::size_t{16} * ROWLAND_MAXIMUM_LIGHTS,
               "must equal the std140 layout");
 }  // namespace rowland::diffraction
 #undef ROWLAND_BLOCK

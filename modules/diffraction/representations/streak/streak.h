@@ -30,7 +30,8 @@ struct StreakSegment {
 
     float path_nm(int node) const { return first_nm + static_cast<float>(node) * step_nm; }
 };
-static_assert(sizeof(StreakSegment) == 4 * (2 + 9 * kSegmentNodes) && std::is_trivially_copyable_v<StreakSegment>);
+static_assert(sizeof(StreakSegment) == sizeof(float) * (2 + 9 * std::size_t{kSegmentNodes}) &&
+              std::is_trivially_copyable_v<StreakSegment>);
 
 /// A narrow lobe: the grating mirrors along the grooves and disperses across them (PHYSICS §6 "streak"). The nodes
 /// replace the colour kernel of all orders: Σ_j weight_j N(u − u_j; width) is the closest to d k(d u).

@@ -117,7 +117,7 @@ glm::dvec3 from_map(const Export& document, const std::vector<float>& xyz, const
     const int i = static_cast<int>(column);
     const int j = std::min(static_cast<int>(row), views - 2);
     const auto texel = [&](int x, int y) {
-        const float* at = xyz.data() + 3 * (y * azimuths + x % azimuths);
+        const float* at = &xyz[3 * static_cast<std::size_t>(y * azimuths + x % azimuths)];
         return glm::dvec3(at[0], at[1], at[2]);
     };
     return glm::mix(glm::mix(texel(i, j), texel(i + 1, j), column - i),
@@ -228,7 +228,8 @@ glm::dvec3 from_lobe(const Export& document, const std::vector<double>& kernel, 
     const double pitch_nm = document.json["material"]["pitch_nm"];
     const double begin_nm = document.json["material"]["kernel"]["begin_nm"];
     const double end_nm = document.json["material"]["kernel"]["end_nm"];
-    const auto last = static_cast<double>(kernel.size() / 9 - 1);
+    const std::size_t nodes = kernel.size() / 9;
+    const double last = static_cast<double>(nodes) - 1.0;
     const auto antiderivative = [&](double x_nm, int o, int c) {
         const double position = std::clamp((x_nm - begin_nm) / (end_nm - begin_nm), 0.0, 1.0) * last;
         const std::size_t i = std::min(static_cast<std::size_t>(position), kernel.size() / 9 - 2);

@@ -274,7 +274,7 @@ TEST_F(CookedScene, TakesTablesOfEarlierCooksOfTheSameParts) {
         made = 0;
         cook::Context context(source, folder_.path() / "parts");
         const std::vector<std::byte> payload = registry.find(kSceneAssetType)->cook(context);
-        EXPECT_EQ(payload, cook(source));  // anew
+        EXPECT_EQ(payload, cook(source));  // without parts
         EXPECT_THAT(context.dependencies(), testing::ElementsAre(source, source.parent_path() / "shade.txt"));
         return made;
     };
@@ -294,6 +294,7 @@ TEST_F(CookedScene, TakesTablesOfEarlierCooksOfTheSameParts) {
     std::filesystem::remove(folder_.path() / "shade.txt");
     cook::Context refused(scene_, folder_.path() / "parts");
     EXPECT_THROW(registry.find(kSceneAssetType)->cook(refused), Error);
+    EXPECT_THAT(refused.dependencies(), Contains(folder_.path() / "shade.txt"));
     write_file_atomic(folder_.path() / "shade.txt", "pale ");
     EXPECT_EQ(makes(scene_), 0);
 }
