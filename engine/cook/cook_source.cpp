@@ -199,7 +199,7 @@ std::vector<std::byte> cook_part(Context& context, const std::string& key,
     try {
         bytes = make(part);
     } catch (...) {
-        context.depend_on_all_of(part);  // a file that is missing, too
+        context.depend_on_all_of(part);  // also a file that is missing
         throw;
     }
     context.depend_on_all_of(part);

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cstdint>
 #include <limits>
 #include <map>
@@ -372,20 +371,6 @@ class Check {
     std::map<std::string_view, std::size_t> sizes_;  ///< of the arrays that indices refer to, by JSON pointer
 };
 
-struct Version {
-    unsigned major = 0;
-    unsigned minor = 0;
-};
-
-std::optional<Version> parse_version(std::string_view text) {
-    Version version;
-    const char* const end = text.data() + text.size();
-    const auto major = std::from_chars(text.data(), end, version.major);
-    if (major.ec != std::errc{} || major.ptr == end || *major.ptr != '.') return std::nullopt;
-    const auto minor = std::from_chars(major.ptr + 1, end, version.minor);
-    return minor.ec == std::errc{} && minor.ptr == end ? std::optional(version) : std::nullopt;
-}
-
 std::vector<std::string> read_names(JsonReader& root, const std::string& key) {
     std::vector<std::string> names;
     if (!root.has(key)) return names;
@@ -482,17 +467,6 @@ std::map<std::string, std::function<nlohmann::ordered_json()>> own_extension_sch
 
 void warn_once(std::vector<std::string>& warnings, std::string text) {
     if (std::ranges::find(warnings, text) == warnings.end()) warnings.push_back(std::move(text));
-}
-
-void check_gltf_version(JsonReader asset) {
-    const auto check = [&](const std::string& key, unsigned most_minor, const std::string& expected) {
-        const std::string text = asset.text(key);
-        const std::optional<Version> version = parse_version(text);
-        if (!version || version->major != 2 || version->minor > most_minor)
-            asset.fail(key, fmt::format("\"{:.20}\"", text), expected, "export the file as glTF 2.0");
-    };
-    check("version", std::numeric_limits<unsigned>::max(), "glTF version 2");
-    if (asset.has("minVersion")) check("minVersion", 0, "2.0: no later version is read");
 }
 
 nlohmann::json check_gltf(const nlohmann::json& root, const std::string& file,

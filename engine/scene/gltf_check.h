@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "engine/core/json_reader.h"
 #include "engine/scene/gltf_source.h"
 
 namespace rowland::scene {
@@ -23,9 +22,6 @@ std::map<std::string, std::function<nlohmann::ordered_json()>> own_extension_sch
 
 /// Adds `text` unless it is already there.
 void warn_once(std::vector<std::string>& warnings, std::string text);
-
-/// Throws Error (input) unless the version is 2.x and minVersion, if any, is 2.0 (glTF 2.0 specification, §3.2).
-void check_gltf_version(JsonReader asset);
 
 /// Verifies a glTF's JSON: every member that we read has the right type and range, every index refers to an existing
 /// element, required extensions are supported or among `handled_extensions`. Call it before tinygltf, which silently

@@ -10,7 +10,6 @@
 #include "engine/core/byte_stream.h"
 #include "engine/core/error.h"
 #include "engine/core/file.h"
-#include "engine/core/json_reader.h"
 #include "engine/scene/tinygltf.h"
 
 namespace rowland::scene {
@@ -138,6 +137,35 @@ GltfBuffer load_file(const GltfSource& source, const std::string& uri, const std
 }
 
 }  // namespace
+
+namespace {
+
+struct Version {
+    unsigned major = 0;
+    unsigned minor = 0;
+};
+
+std::optional<Version> parse_version(std::string_view text) {
+    Version version;
+    const char* const end = text.data() + text.size();
+    const auto major = std::from_chars(text.data(), end, version.major);
+    if (major.ec != std::errc{} || major.ptr == end || *major.ptr != '.') return std::nullopt;
+    const auto minor = std::from_chars(major.ptr + 1, end, version.minor);
+    return minor.ec == std::errc{} && minor.ptr == end ? std::optional(version) : std::nullopt;
+}
+
+}  // namespace
+
+void check_gltf_version(JsonReader asset) {
+    const auto check = [&](const std::string& key, unsigned most_minor, const std::string& expected) {
+        const std::string text = asset.text(key);
+        const std::optional<Version> version = parse_version(text);
+        if (!version || version->major != 2 || version->minor > most_minor)
+            asset.fail(key, fmt::format("\"{:.20}\"", text), expected, "export the file as glTF 2.0");
+    };
+    check("version", std::numeric_limits<unsigned>::max(), "glTF version 2");
+    if (asset.has("minVersion")) check("minVersion", 0, "2.0: no later version is read");
+}
 
 std::span<const std::byte> GltfSource::json_text() const {
     auto text = std::span(bytes).subspan(json_offset, json_size);

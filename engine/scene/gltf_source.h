@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "engine/core/json_reader.h"
+
 namespace rowland::scene {
 
 /// Limits the memory that one file may make us use. Every size that a file names is spent here before it is allocated,
@@ -63,6 +65,9 @@ struct GltfSource {
 /// Splits the bytes of a .gltf or .glb. Checks the GLB header and chunk lengths, and the JSON's size and depth before
 /// it is parsed. Throws Error (input).
 GltfSource split_gltf(std::vector<std::byte> bytes, std::string file, std::optional<std::filesystem::path> folder);
+
+/// Throws Error (input) unless the version is 2.x and minVersion, if any, is 2.0 (glTF 2.0 specification, §3.2).
+void check_gltf_version(JsonReader asset);
 
 /// The length of a GLB chunk for `bytes` bytes of data: the next multiple of 4.
 constexpr std::size_t padded_chunk(std::size_t bytes) {
