@@ -126,21 +126,23 @@ std::vector<std::filesystem::path> beside(const std::filesystem::path& source,
     return names;
 }
 
-/// The files of a record, the source first. Nullopt if `hash_of` their present contents is not the recorded one.
-std::optional<std::vector<std::filesystem::path>> unchanged(
-    const CookRecord& record, const std::filesystem::path& source,
-    const std::function<Hash128(std::span<const Hash128>)>& hash_of) {
-    std::vector<std::filesystem::path> files{source};
+/// The files of a record beside the source, without the source.
+std::vector<std::filesystem::path> named_files(const CookRecord& record, const std::filesystem::path& source) {
+    std::vector<std::filesystem::path> files;
     for (std::size_t i = 1; i < record.dependencies.size(); ++i)
         files.push_back(source.parent_path() / record.dependencies[i]);
+    return files;
+}
+
+/// Present hashes of files; nullopt if one cannot be read.
+std::optional<std::vector<Hash128>> hashes_of(std::span<const std::filesystem::path> files) {
     std::vector<Hash128> hashes;
     for (const std::filesystem::path& file : files) {
         const std::optional<Hash128> hash = hash_dependency(file);
         if (!hash) return std::nullopt;
         hashes.push_back(*hash);
     }
-    if (hash_of(hashes).hex() != record.content_hash) return std::nullopt;
-    return files;
+    return hashes;
 }
 
 }  // namespace
@@ -170,31 +172,67 @@ std::optional<CookRecord> read_cook_record(const std::filesystem::path& file) {
     return std::nullopt;
 }
 
+namespace {
+
+/// The parts of one key in a folder. Files are those that a part was made from, without the source: what the part takes
+/// from that is in the key.
+class KeptPart {
+ public:
+    KeptPart(const std::filesystem::path& folder, const std::string& key)
+        : folder_(folder), key_(key), record_file_(folder / (hash_of({}).hex() + ".json")) {}
+
+    /// The part, if its files have the content that it was made from, which `context` depends on then.
+    std::optional<std::vector<std::byte>> find(Context& context) const {
+        const std::optional<CookRecord> record = read_cook_record(record_file_);
+        if (!record) return std::nullopt;
+        const std::vector<std::filesystem::path> files = named_files(*record, context.source());
+        const auto hashes = hashes_of(files);
+        if (!hashes || hash_of(*hashes).hex() != record->content_hash) return std::nullopt;
+        const std::filesystem::path file = file_of(record->content_hash);
+        if (!std::filesystem::exists(file)) return std::nullopt;
+        std::vector<std::byte> bytes = read_file(file, kMaximumHashedBytes);
+        if (Hasher().bytes(bytes).digest().hex() != record->output_hash) return std::nullopt;
+        for (const std::filesystem::path& named : files) context.depend_on(named);
+        return bytes;
+    }
+
+    /// Does nothing if a file could not be read.
+    void write(const Context& part, std::span<const std::byte> bytes) const {
+        std::vector<Hash128> hashes;
+        for (const std::optional<Hash128>& hash : std::span(part.fingerprints()).subspan(1)) {
+            if (!hash) return;
+            hashes.push_back(*hash);
+        }
+        const CookRecord record{.cooker = {},
+                                .dependencies = beside(part.source(), part.dependencies()),
+                                .content_hash = hash_of(hashes).hex(),
+                                .output_hash = Hasher().bytes(bytes).digest().hex()};
+        write_file_atomic(file_of(record.content_hash), bytes);
+        write_cook_record(record_file_, record);
+    }
+
+ private:
+    Hash128 hash_of(std::span<const Hash128> files) const {
+        Hasher hasher;
+        hasher.text(tool_version()).text(key_);
+        for (const Hash128& file : files) hasher.text(file.hex());
+        return hasher.digest();
+    }
+    std::filesystem::path file_of(const std::string& content_hash) const { return folder_ / (content_hash + ".part"); }
+
+    const std::filesystem::path& folder_;
+    const std::string& key_;
+    std::filesystem::path record_file_;
+};
+
+}  // namespace
+
 std::vector<std::byte> cook_part(Context& context, const std::string& key,
                                  const std::function<std::vector<std::byte>(Context&)>& make) {
-    const std::filesystem::path& folder = context.parts_folder();
-    if (folder.empty()) return make(context);
-    const std::filesystem::path& source = context.source();
-    // The source's own content is no part of it: what the part takes from it is in the key.
-    const auto hash_of = [&](std::span<const Hash128> dependencies) {
-        Hasher hasher;
-        hasher.text(tool_version()).text(key);
-        for (const Hash128& dependency : dependencies.subspan(1)) hasher.text(dependency.hex());
-        return hasher.digest();
-    };
-    const std::filesystem::path record_file =
-        folder / (Hasher().text(tool_version()).text(key).digest().hex() + ".json");
-    const auto file_of = [&](const std::string& content) { return folder / (content + ".part"); };
-    if (const std::optional<CookRecord> record = read_cook_record(record_file))
-        if (const auto files = unchanged(*record, source, hash_of);
-            files && std::filesystem::exists(file_of(record->content_hash))) {
-            std::vector<std::byte> bytes = read_file(file_of(record->content_hash), kMaximumHashedBytes);
-            if (Hasher().bytes(bytes).digest().hex() == record->output_hash) {
-                for (const std::filesystem::path& file : *files) context.depend_on(file);
-                return bytes;
-            }
-        }
-    Context part(source);
+    if (context.parts_folder().empty()) return make(context);
+    const KeptPart kept(context.parts_folder(), key);
+    if (std::optional<std::vector<std::byte>> bytes = kept.find(context)) return std::move(*bytes);
+    Context part = context.part();
     std::vector<std::byte> bytes;
     try {
         bytes = make(part);
@@ -203,17 +241,7 @@ std::vector<std::byte> cook_part(Context& context, const std::string& key,
         throw;
     }
     context.depend_on_all_of(part);
-    std::vector<Hash128> hashes;
-    for (const std::optional<Hash128>& hash : part.fingerprints()) {
-        if (!hash) return bytes;  // a file that could not be read
-        hashes.push_back(*hash);
-    }
-    const CookRecord record{.cooker = {},
-                            .dependencies = beside(source, part.dependencies()),
-                            .content_hash = hash_of(hashes).hex(),
-                            .output_hash = Hasher().bytes(bytes).digest().hex()};
-    write_file_atomic(file_of(record.content_hash), bytes);
-    write_cook_record(record_file, record);
+    kept.write(part, bytes);
     return bytes;
 }
 
@@ -233,12 +261,16 @@ std::filesystem::path cook_once(const Registry& registry, const std::filesystem:
     }
     const auto output_of = [&](const std::string& content) { return cache_folder / (content + type->extension); };
     const std::filesystem::path record_file = cache_folder / (source_hash->hex() + ".json");
-    if (const std::optional<CookRecord> record = read_cook_record(record_file))
-        if (auto files = unchanged(*record, source, [&](auto hashes) { return content_hash(*type, hashes); });
-            files && std::filesystem::exists(output_of(record->content_hash))) {
-            read_files = std::move(*files);
+    if (const std::optional<CookRecord> record = read_cook_record(record_file)) {
+        std::vector<std::filesystem::path> files = named_files(*record, source);
+        files.insert(files.begin(), source);
+        const auto hashes = hashes_of(files);
+        if (hashes && content_hash(*type, *hashes).hex() == record->content_hash &&
+            std::filesystem::exists(output_of(record->content_hash))) {
+            read_files = std::move(files);
             return output_of(record->content_hash);
         }
+    }
     log_info("cooking {}", source.string());
     BakedAsset baked = bake_source(registry, source, parts_folder(cache_folder));
     const CookRecord record{.cooker = {},

@@ -31,6 +31,14 @@ void Context::depend_on(const std::filesystem::path& path) {
     fingerprints_.push_back(hash_dependency(path));
 }
 
+Context Context::part() const {
+    Context part;
+    part.source_ = source_;
+    part.dependencies_ = {dependencies_.front()};
+    part.fingerprints_ = {fingerprints_.front()};
+    return part;
+}
+
 void Context::depend_on_all_of(const Context& part) {
     for (std::size_t i = 0; i < part.dependencies_.size(); ++i) {
         const std::filesystem::path& path = part.dependencies_[i];

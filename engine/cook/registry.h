@@ -42,6 +42,8 @@ class Context {
     /// Records that the result depends on `path`, and the file's present hash. Call it before reading the file. It does
     /// not throw if the file is missing or unreadable: an optional one may be missing, and reading refuses any other.
     void depend_on(const std::filesystem::path& path);
+    /// A context of the same source, as yet without other files.
+    Context part() const;
     /// Depends on all that `part`, a context of the same source, depends on. Throws Error (system) if a file has
     /// changed between the two.
     void depend_on_all_of(const Context& part);
@@ -60,6 +62,8 @@ class Context {
     nlohmann::ordered_json read_ordered_json(const std::filesystem::path& path);
 
  private:
+    Context() = default;
+
     std::filesystem::path source_;
     std::filesystem::path parts_folder_;
     std::vector<std::filesystem::path> dependencies_;

@@ -36,39 +36,40 @@ void Buffer::Release::operator()(GLuint name) const {
     bound_state().forget(BoundState::Slot::StorageBuffer, name);
 }
 
-Buffer::Buffer(std::span<const std::byte> data) : size_(data.size()) {
-    ROWLAND_CHECK_OP(data.size(), >, std::size_t{0});
+namespace {
+
+/// The name of a buffer of `bytes` > 0 that holds `data`, or anything if that is null.
+GLuint make_buffer(std::size_t bytes, const std::byte* data, GLbitfield flags) {
+    ROWLAND_CHECK_OP(bytes, >, std::size_t{0});
     GLuint name = 0;
     glCreateBuffers(1, &name);
-    handle_ = Handle<Release>(name);
-    glNamedBufferStorage(name, static_cast<GLsizeiptr>(data.size()), data.data(), 0);
+    glNamedBufferStorage(name, static_cast<GLsizeiptr>(bytes), data, flags);
+    return name;
 }
 
+}  // namespace
+
+Buffer::Buffer(std::span<const std::byte> data)
+    : handle_(make_buffer(data.size(), data.data(), 0)), size_(data.size()) {}
+
 Buffer Buffer::mapped(std::size_t bytes, GLbitfield access) {
-    ROWLAND_CHECK_OP(bytes, >, std::size_t{0});
     const GLbitfield flags = access | GL_MAP_PERSISTENT_BIT | GL_MAP_COHERENT_BIT;
-    GLuint name = 0;
-    glCreateBuffers(1, &name);
     Buffer buffer;
-    buffer.handle_ = Handle<Release>(name);
+    buffer.handle_ = Handle<Release>(make_buffer(bytes, nullptr, flags));
     buffer.size_ = bytes;
-    glNamedBufferStorage(name, static_cast<GLsizeiptr>(bytes), nullptr, flags);
-    buffer.mapping_ = static_cast<std::byte*>(glMapNamedBufferRange(name, 0, static_cast<GLsizeiptr>(bytes), flags));
+    buffer.mapping_ =
+        static_cast<std::byte*>(glMapNamedBufferRange(buffer.id(), 0, static_cast<GLsizeiptr>(bytes), flags));
     if (buffer.mapping_ == nullptr)
         fail_system("OpenGL", fmt::format("no memory for a buffer of {} bytes", bytes), "draw smaller or fewer meshes");
     return buffer;
 }
 
 Buffer Buffer::copy_of(const Buffer& from, std::size_t offset, std::size_t bytes) {
-    ROWLAND_CHECK_OP(bytes, >, std::size_t{0});
     ROWLAND_CHECK_OP(offset + bytes, <=, from.size());
-    GLuint name = 0;
-    glCreateBuffers(1, &name);
     Buffer buffer;
-    buffer.handle_ = Handle<Release>(name);
+    buffer.handle_ = Handle<Release>(make_buffer(bytes, nullptr, 0));
     buffer.size_ = bytes;
-    glNamedBufferStorage(name, static_cast<GLsizeiptr>(bytes), nullptr, 0);
-    glCopyNamedBufferSubData(from.id(), name, static_cast<GLintptr>(offset), 0, static_cast<GLsizeiptr>(bytes));
+    glCopyNamedBufferSubData(from.id(), buffer.id(), static_cast<GLintptr>(offset), 0, static_cast<GLsizeiptr>(bytes));
     return buffer;
 }
 

@@ -39,7 +39,6 @@
 #include "modules/diffraction/module.h"
 #include "modules/diffraction/reference/reference.h"
 #include "modules/diffraction/runtime/diffraction_surface.h"
-#include "modules/diffraction/runtime/surface_light.h"
 #include "modules/diffraction/runtime/vertex_light.h"
 #include "modules/material_types.h"
 
@@ -317,11 +316,9 @@ void compare(const std::vector<lighting::ProbeImage>& lights, std::vector<SeenPo
                                                                                   : 0.0;
             if (part == 0.0) continue;
             if (!comparer) comparer.emplace(lights[probe], key_lights);
-            math::SphericalWindow window = math::SphericalWindow::None;
-            const int bands = demo::harmonic_bands(drawn_tables(point.cooked->tables, point.layout));
-            if (bands > 0)
-                window = diffraction::weakest_window(
-                    comparer->harmonics(std::min(point.cooked->material.quality.key_lights, key_lights), bands), bands);
+            const math::SphericalWindow window =
+                demo::chosen_window(*comparer, *point.cooked, point.layout,
+                                    std::min(point.cooked->material.quality.key_lights, key_lights));
             const auto compared = comparer->compare(point.cooked, window, point.frame, point.layout);
             point.shown += part * compared.shown;
             point.reference += part * compared.reference;

@@ -22,7 +22,10 @@ FullResolutionProbe load_full_resolution_probe(const std::filesystem::path& path
                  "the light at full resolution", "give the probe's image or recipe");
 }
 
-int harmonic_bands(const diffraction::BakedTables& tables) {
+namespace {
+
+/// SH bands that the tables were baked for; 0 for tables without SH.
+int bands_of(const diffraction::BakedTables& tables) {
     return std::visit(
         [](const auto& t) -> int {
             if constexpr (requires { t.bands; }) return t.bands;
@@ -30,6 +33,15 @@ int harmonic_bands(const diffraction::BakedTables& tables) {
             return 0;
         },
         tables);
+}
+
+}  // namespace
+
+math::SphericalWindow chosen_window(diffraction::PointComparer& comparer, const diffraction::CookedMaterial& cooked,
+                                    diffraction::GrooveLayout layout, int key_lights) {
+    const int bands = bands_of(drawn_tables(cooked.tables, layout));
+    return bands > 0 ? diffraction::weakest_window(comparer.harmonics(key_lights, bands), bands)
+                     : math::SphericalWindow::None;
 }
 
 /// The probe of the last query, and what was derived from it.
@@ -55,9 +67,9 @@ struct PixelMeter::Lit {
         PixelReading reading{.query = query, .key_lights = key_lights, .point = {}};
         if (query.window) {
             reading.window = *query.window;
-        } else if (const int bands = harmonic_bands(drawn_tables(query.cooked->tables, query.layout)); bands > 0) {
+        } else {
             if (std::exchange(windowed, {query.cooked, query.layout}) != std::pair{query.cooked, query.layout})
-                window = diffraction::weakest_window(comparer->harmonics(key_lights, bands), bands);
+                window = chosen_window(*comparer, *query.cooked, query.layout, key_lights);
             reading.window = window;
         }
         reading.point = comparer->compare(query.cooked, reading.window, query.frame, query.layout);

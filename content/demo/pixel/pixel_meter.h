@@ -22,8 +22,10 @@ using lighting::FullResolutionProbe;
 FullResolutionProbe load_full_resolution_probe(const std::filesystem::path& path, const std::string& mapping,
                                                const std::filesystem::path& recipes);
 
-/// SH bands that the tables were baked for; 0 for tables without SH.
-int harmonic_bands(const diffraction::BakedTables& tables);
+/// The weakest sufficient window for the SH of a material's tables under the comparer's probe less its first
+/// `key_lights` key lights, as the renderer chooses it; none for tables without SH.
+math::SphericalWindow chosen_window(diffraction::PointComparer& comparer, const diffraction::CookedMaterial& cooked,
+                                    diffraction::GrooveLayout layout, int key_lights);
 
 /// The probe under which points are measured.
 struct PixelProbe {
