@@ -70,13 +70,8 @@ void DemoUser::throw_from(glm::ivec2 from, glm::ivec2 distance) {
     point_at(from);
     user_.press();
     std::this_thread::sleep_for(kStep);
-    // Longer than a frame takes, so that one of them ends in motion.
-    constexpr int kMoves = 30;
-    for (int i = 0; i < kMoves; ++i) {
-        user_.move_by(distance / kMoves);
-        std::this_thread::sleep_for(20ms);
-    }
-    user_.release();
+    // Lasts longer than a frame, so that one of them ends in motion.
+    user_.release_in_motion(distance, 30, 20ms);
 }
 
 std::filesystem::path DemoUser::numbered(const char* format, int number) const {

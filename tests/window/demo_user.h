@@ -23,7 +23,7 @@ class DemoUser {
     void point_at(glm::ivec2 position);
     void click(glm::ivec2 position);
     void drag(glm::ivec2 from, glm::ivec2 distance);
-    /// A drag that is let go in motion.
+    /// A drag that ends in motion.
     void throw_from(glm::ivec2 from, glm::ivec2 distance);
     void drop(const std::filesystem::path& file) { user_.drop(file); }
 

@@ -1,5 +1,7 @@
 #include "tests/window/window_user.h"
 
+#include <fmt/format.h>
+
 #include <sstream>
 #include <stdexcept>
 #include <thread>
@@ -63,6 +65,19 @@ void WindowUser::press() {
 }
 void WindowUser::release() {
     act({"mouseup", "1"});
+}
+
+void WindowUser::release_in_motion(glm::ivec2 distance, int moves, std::chrono::milliseconds pause) {
+    // By one process: on a busy machine the start of another would be a rest before the release.
+    Command steps;
+    for (int i = 0; i < moves; ++i) {
+        if (i > 0)
+            steps.insert(steps.end(), {"sleep", fmt::format("{:.3f}", std::chrono::duration<double>(pause).count())});
+        const glm::ivec2 step = distance * (i + 1) / moves - distance * i / moves;
+        steps.insert(steps.end(), {"mousemove_relative", "--", std::to_string(step.x), std::to_string(step.y)});
+    }
+    steps.insert(steps.end(), {"mouseup", "1"});
+    act(steps);
 }
 
 void WindowUser::drop(const std::filesystem::path& file) {

@@ -29,6 +29,8 @@ class WindowUser {
     void move_by(glm::ivec2 distance);
     void press();
     void release();
+    /// Moves the pressed mouse by `distance` in so many moves, with a pause between two, and releases it at once.
+    void release_in_motion(glm::ivec2 distance, int moves, std::chrono::milliseconds pause);
 
     /// Drops a file onto the window, as a file manager does.
     void drop(const std::filesystem::path& file);
