@@ -91,6 +91,9 @@ void run_export(const Options& options) {
     if (cooked.material.grating.transmission)
         refuse_input(options.material.string(), "transmission", "a sheet that transmits", "a reflecting grating",
                      "documents hold reflected light alone");
+    if (std::holds_alternative<diffraction::PitSequenceLobe>(cooked.material.grating.lobe))
+        refuse_input(options.material.string(), "/grating/groove_lobe/pit_sequence", "a pit sequence",
+                     "\"flat\", a sigma, or pits", "documents do not hold its orders");
     diffraction::PortableDocument document = diffraction::make_portable(bytes.filename().string());
     add_material(cooked, document);
     if (options.arc) {

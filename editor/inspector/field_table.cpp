@@ -34,6 +34,7 @@ const char* const kMaxwell = "Li 1996; Chandezon et al. 1982";
 const char* const kFresnel = "Fresnel's equations";
 const char* const kGoodman = "Goodman, Introduction to Fourier Optics, ch. 4";
 const char* const kStam = "Stam 1999, Diffraction shaders";
+const char* const kSun = "Sun et al. 2000, Rendering iridescent colors of optical disks";
 
 /// The field with the pointer of `field`, which is added if there is none.
 Field& merged_into(std::vector<Field>& fields, const Field& field) {
@@ -102,6 +103,11 @@ std::vector<Field> pitch_fields() {
                          "the grating equation; Lindsay & Agu 2006, eq. 1"))});
 }
 
+/// Of a compact disc.
+Json initial_spacings() {
+    return {900, 1200, 1500, 1800, 2100, 2400, 2700, 3000, 3300};
+}
+
 std::vector<Field> order_and_lobe_fields() {
     return joined(
         {shown_for(
@@ -132,10 +138,13 @@ std::vector<Field> order_and_lobe_fields() {
               choice("/grating/groove_lobe", "Lobe", "flat",
                      {{"flat", "flat"},
                       {"gaussian", {{"sigma", 0.1}}},
-                      {"pits", {{"pits", {{"length_nm", 850}, {"coherent", 0.3}}}}}},
+                      {"pits", {{"pits", {{"length_nm", 850}, {"coherent", 0.3}}}}},
+                      {"pit sequence",
+                       {{"pit_sequence", {{"spacings_nm", initial_spacings()}, {"coherent", 0.3}, {"sigma", 0.02}}}}}},
                      "Distribution of light along the grooves. flat: uniform, as in the paper. gaussian: thin "
-                     "streaks, as of pressed discs and foil. pits: the data of a compact disc.",
-                     "flat: Lindsay & Agu 2006; pits: Stam 1999, Diffraction shaders")}),
+                     "streaks, as of pressed discs and foil. pits: the data of a compact disc. pit sequence: the same "
+                     "as gratings along the track, of several spacings at once.",
+                     "flat: Lindsay & Agu 2006; pits: Stam 1999, Diffraction shaders; pit sequence: Sun et al. 2000")}),
          shown_for("/grating/films", "a film",
                    {required(slider(Number, "/grating/films/0/ior", "Film's index", {1.0, 3.0}, 1.6,
                                     "Index of refraction n of the film at all wavelengths; 1 to 4.", kMaxwell)),
@@ -152,8 +161,19 @@ std::vector<Field> order_and_lobe_fields() {
                               "at most 100 000.",
                               kStam)),
               required(slider(Number, "/grating/groove_lobe/pits/coherent", "Coherent part", {}, 0.3,
-                              "Fraction κ of the light that is reflected as by a continuous track; 0 to 1.",
-                              kStam))})});
+                              "Fraction κ of the light that is reflected as by a continuous track; 0 to 1.", kStam))}),
+         shown_for(
+             "/grating/groove_lobe", "pit sequence",
+             {required(slider(Orders, "/grating/groove_lobe/pit_sequence/spacings_nm", "Pit spacings",
+                              {100.0, 100000.0, "nm"}, initial_spacings(),
+                              "Distances in nm of one pit from the next, each of a grating of its own: 1 to 16, "
+                              "ascending, 100 to 100 000.",
+                              kSun)),
+              slider(Number, "/grating/groove_lobe/pit_sequence/coherent", "Coherent part", {}, 0.3,
+                     "Fraction κ of the light that is reflected as by a continuous track; 0 to 1.", kSun),
+              slider(Number, "/grating/groove_lobe/pit_sequence/sigma", "Width of an order",
+                     {0.004, 0.2, "", kLogarithmic}, 0.02,
+                     "Standard deviation σ of s_h + v_h around each order along the track; 0.004 to 0.2.", kSun)})});
 }
 
 Json initial_sinusoid() {

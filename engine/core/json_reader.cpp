@@ -200,8 +200,14 @@ const nlohmann::json& JsonReader::require(const std::string& key) {
     // A misspelt key explains a missing one.
     std::vector<std::string> present;
     for (const auto& [name, ignored] : value_->items()) present.push_back(name);
-    const auto near = nearest_word(key, present);
-    fail(key, "missing", "a value", near ? fmt::format("is \"{}\" meant to be \"{}\"?", *near, key) : "add it");
+    if (const auto near = nearest_word(key, present))
+        fail(key, "missing", "a value", fmt::format("is \"{}\" meant to be \"{}\"?", *near, key));
+    // So does a misspelt key of an alternative.
+    const std::vector<std::string> asked(known_.begin(), known_.end());
+    for (const std::string& name : present)
+        if (const auto near = known_.contains(name) ? std::nullopt : nearest_word(name, asked))
+            fail(key, "missing", "a value", fmt::format("is \"{}\" meant to be \"{}\"?", name, *near));
+    fail(key, "missing", "a value", "add it");
 }
 
 double JsonReader::number(const std::string& key, NumberRange range) {
@@ -349,12 +355,20 @@ void JsonReader::variant(const std::string& key, const std::vector<std::string_v
 
 void JsonReader::alternatives(const std::string& key, const std::function<void(JsonReader&)>& with,
                               const std::function<void(JsonReader&)>& without) {
-    if (!recorder_) return has(key) ? with(*this) : without(*this);
-    const auto parts = recorder_->split(2);
-    JsonReader first(parts[0]);
-    with(first);
-    JsonReader second(parts[1]);
-    without(second);
+    alternatives({{key, with}}, without);
+}
+
+void JsonReader::alternatives(const std::vector<std::pair<std::string, std::function<void(JsonReader&)>>>& keys,
+                              const std::function<void(JsonReader&)>& without) {
+    if (!recorder_) {
+        const auto there = std::ranges::find_if(keys, [&](const auto& one) { return has(one.first); });
+        return there != keys.end() ? there->second(*this) : without(*this);
+    }
+    const auto parts = recorder_->split(keys.size() + 1);
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        JsonReader part(parts[i]);
+        i < keys.size() ? keys[i].second(part) : without(part);
+    }
 }
 
 void JsonReader::annotate(const std::string& key, std::string_view keywords) {

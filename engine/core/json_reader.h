@@ -117,6 +117,9 @@ class JsonReader {
     /// Calls `with`, which must read the key, if the key is there, else `without`.
     void alternatives(const std::string& key, const std::function<void(JsonReader&)>& with,
                       const std::function<void(JsonReader&)>& without);
+    /// The same for the first of several keys that is there.
+    void alternatives(const std::vector<std::pair<std::string, std::function<void(JsonReader&)>>>& keys,
+                      const std::function<void(JsonReader&)>& without);
 
     /// Adds keywords, as JSON text, to the JSON Schema of a member that was read: for what the calls above cannot
     /// express. The key "probes/items" is the schema of the elements of "probes".

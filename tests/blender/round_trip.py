@@ -184,6 +184,11 @@ def edit_by_panel(fields):
     fields.profile = "sinusoidal"
     fields.depth_nm = 150
     expect(fields.object()["grating"]["profile"], {"type": "sinusoidal", "depth_nm": 150}, "profile")
+    fields.lobe = "pit_sequence"
+    fields.sequence_sigma = 0.03
+    fields.sequence_coherent = 2
+    expect(fields.object()["grating"]["groove_lobe"],
+           {"pit_sequence": {"spacings_nm": list(range(900, 3301, 300)), "sigma": 0.03, "coherent": 1}}, "lobe of pits")
     fields.lobe = "sigma"
     fields.sigma = 0.05
     expect(fields.object()["grating"]["groove_lobe"], {"sigma": 0.05}, "lobe")

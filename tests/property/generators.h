@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <glm/geometric.hpp>
@@ -36,6 +37,9 @@ inline void showValue(const Grating& grating, std::ostream& out) {
         out << fmt::format(", sigma {:.17g}", gaussian->sigma);
     if (const auto* pits = std::get_if<PitsLobe>(&grating.lobe))
         out << fmt::format(", pits {:.17g} {:.17g}", pits->length_nm, pits->coherent);
+    if (const auto* sequence = std::get_if<PitSequenceLobe>(&grating.lobe))
+        out << fmt::format(", pit sequence {:.17g}, coherent {:.17g}, sigma {:.17g}",
+                           fmt::join(sequence->spacings_nm, " "), sequence->coherent, sequence->sigma);
     if (grating.cover) out << fmt::format(", cover {:.17g}", grating.cover->ior);
     if (grating.transmission)
         out << fmt::format(", through {:.17g}, reflects {:.17g}", grating.transmission->ior,
@@ -140,11 +144,19 @@ inline rc::Gen<diffraction::Profile> profile(double pitch_nm) {
 
 inline rc::Gen<diffraction::GrooveLobe> lobe() {
     return rc::gen::exec([]() -> diffraction::GrooveLobe {
-        switch (*whole(0, 2)) {
+        switch (*whole(0, 3)) {
             case 0:
                 return diffraction::FlatLobe{};
             case 1:
                 return diffraction::GaussianLobe{*log_uniform(1e-4, 10.0)};
+            case 2: {
+                std::vector<double> spacings_nm(static_cast<std::size_t>(*whole(1, 4)));
+                for (double& spacing_nm : spacings_nm) spacing_nm = *log_uniform(100.0, 10000.0);
+                std::sort(spacings_nm.begin(), spacings_nm.end());
+                return diffraction::PitSequenceLobe{spacings_nm,
+                                                    *rc::gen::oneOf(uniform(0.0, 1.0), rc::gen::element(0.0, 1.0)),
+                                                    *log_uniform(0.01, 0.2)};
+            }
             default:
                 return diffraction::PitsLobe{*log_uniform(50.0, 20000.0),
                                              *rc::gen::oneOf(uniform(0.0, 1.0), rc::gen::element(0.0, 1.0))};

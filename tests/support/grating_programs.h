@@ -59,6 +59,8 @@ inline std::vector<GratingProgram> grating_programs() {
         {"direct", 2, {{"LOBE_GAUSSIAN", "1"}}},
         {"planar", 3, at_pixels(planar, {})},
         {"planar_volume", 3, at_pixels(planar, {{"LOBE_MAP", "1"}, {"HALF_TURN", "1"}, {"LOBE_PITS", "1"}})},
+        {"planar_pit_sequence", 3,
+         at_pixels(planar, {{"LOBE_MAP", "1"}, {"HALF_TURN", "1"}, {"LOBE_PIT_SEQUENCE", "16"}})},
         {"planar_at_vertices", 2, at_vertices(planar, {})},
         {"circle", 4,
          at_pixels("representations/circle/circle.glsl",

@@ -161,7 +161,8 @@ bool crosses_quality(const json& document) {
     const bool view = flat ? name == "arc" && !along_one_axis : quality.contains("view_mapping") && along_one_axis;
     const bool map = flat ? quality.contains("views_h")
                           : name == "circle" || (name == "planar" && quality.value("map_resolution", 128) > 256);
-    const bool narrow = !flat && document["grating"]["groove_lobe"].value("/pits/coherent"_json_pointer, 1.0) > 0.0;
+    const bool narrow = !flat && !document["grating"]["groove_lobe"].contains("pit_sequence") &&
+                        document["grating"]["groove_lobe"].value("/pits/coherent"_json_pointer, 1.0) > 0.0;
     const bool streak = name == "streak" && !narrow;
     const int bands = quality.value("bands", 5);
     const bool layers = quality.value("spikes", 1) * (bands * bands + 4) / 4 > 2048;
@@ -199,12 +200,16 @@ bool crosses_members(const json& document) {
         document.contains("transmission") &&
         (document.contains("metal") || document.contains("cover") ||
          (profile["type"] == "table" && document["transmission"].value("reflectance", 0.0) > 0.0));
-    const bool few = grating.value("grooves", 1500.0) < 50.0 && (profile["type"] == "table" || lobe.contains("pits"));
+    const bool few = grating.value("grooves", 1500.0) < 50.0 &&
+                     (profile["type"] == "table" || lobe.contains("pits") || lobe.contains("pit_sequence"));
+    const json spacings = lobe.is_object() ? lobe.value("/pit_sequence/spacings_nm"_json_pointer, json()) : json();
+    const bool descending = !std::is_sorted(spacings.begin(), spacings.end());
     const bool endless = grating.value("orders", json()) == "all" && grating["pitch_nm"] > 190000.0;
     const std::string lamp = document.value("quality", json::object()).value("illuminant", "D65");
     const auto names = colour::illuminant_names();
     const bool dark = lamp != "lamp.csv" && std::find(names.begin(), names.end(), lamp) == names.end();
-    return wide || agu || plated_table || plated_sheet || few || endless || dark || crosses_quality(document);
+    return wide || agu || plated_table || plated_sheet || few || descending || endless || dark ||
+           crosses_quality(document);
 }
 
 /// A schema cannot know which files there are.
@@ -245,6 +250,9 @@ TEST(Schema, OfMaterialsAgreesWithTheParser) {
         material(R"({"type": "table", "file": "t.csv"}})", R"(, "base": {"roughness": 0.1}})"),
         material(R"({"type": "sinusoidal", "depth_nm": 90})",
                  R"(, "groove_lobe": {"pits": {"length_nm": 850, "coherent": 0.3}}}})"),
+        material(
+            R"({"type": "sinusoidal", "depth_nm": 90})",
+            R"(, "groove_lobe": {"pit_sequence": {"spacings_nm": [900, 1200, 3300], "coherent": 0.3, "sigma": 0.02}}}})"),
         pinned(R"({"representation": "spikes", "spikes": 8, "view_mapping": "parabolic", "key_lights": 64})"),
         pinned(
             R"({"representation": "arc", "bands": 6, "rank": 12, "storage": "fp32", "key_lights": 0, "illuminant": "A", "max_error": 0.2})"),

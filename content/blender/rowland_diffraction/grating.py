@@ -1,5 +1,6 @@
 """A grating as the JSON object of ROWLAND_materials_diffraction. Knows nothing of Blender."""
 
+import copy
 import json
 import math
 import os
@@ -27,6 +28,7 @@ LOBES = {
     "flat": ("flat", {"representation": "arc", "bands": 8, "rank": 12}),
     "sigma": ({"sigma": 0.1}, {"representation": "streak"}),
     "pits": ({"pits": {"length_nm": 850, "coherent": 0.5}}, {"representation": "planar"}),
+    "pit_sequence": ({"pit_sequence": {"spacings_nm": list(range(900, 3301, 300))}}, {"representation": "planar"}),
 }
 
 # Linear colours of the metals, for the viewport alone.
@@ -146,7 +148,7 @@ def lobe_kind(grating):
 
 def set_lobe_kind(grating, kind):
     lobe, quality = LOBES[kind]
-    set_value(grating, ("grating", "groove_lobe"), lobe)
+    set_value(grating, ("grating", "groove_lobe"), copy.deepcopy(lobe))
     grating["quality"] = dict(quality)
     drop_impossible_theory(grating)
 

@@ -9,7 +9,10 @@ import bpy
 from . import grating, properties, rowland_folder
 
 # The fields under each lobe.
-LOBE_FIELDS = {"flat": (), "sigma": ("sigma",), "pits": ("length_nm", "coherent")}
+LOBE_FIELDS = {
+    "flat": (), "sigma": ("sigma",), "pits": ("length_nm", "coherent"),
+    "pit_sequence": ("sequence_coherent", "sequence_sigma"),
+}
 # In place of the titles of grooves' members.
 LATTICE_TITLES = {"width_nm": "Opening's width (nm)", "depth_nm": "Depth (nm)"}
 

@@ -71,6 +71,7 @@ TRANSMISSION = grating.MEMBERS["transmission"]["properties"]
 LOBES = [lobe["properties"] for lobe in grating.GROOVES["groove_lobe"]["oneOf"] if "properties" in lobe]
 LOBE = {next(iter(lobe)): lobe for lobe in LOBES}
 PITS = LOBE["pits"]["pits"]["properties"]
+SEQUENCE = LOBE["pit_sequence"]["pit_sequence"]["properties"]
 MEMBERS = {name: schema for members in grating.PROFILES.values() for name, schema in members.items()}
 
 
@@ -100,10 +101,15 @@ class RowlandGrating(bpy.types.PropertyGroup):
     height_nm: number(("grating", "profile", "height_nm"), "Opening's height (nm)", MEMBERS["width_nm"])
     lobe: choice(
         "Lobe", list(grating.LOBES), grating.lobe_kind, grating.set_lobe_kind,
-        {"flat": "flat", "sigma": "narrow (sigma)", "pits": "pits"})
+        {"flat": "flat", "sigma": "narrow (sigma)", "pits": "pits", "pit_sequence": "pit sequence"})
     sigma: number(("grating", "groove_lobe", "sigma"), "Sigma", LOBE["sigma"]["sigma"], precision=4)
     length_nm: number(("grating", "groove_lobe", "pits", "length_nm"), "Pit length (nm)", PITS["length_nm"])
     coherent: number(("grating", "groove_lobe", "pits", "coherent"), "Coherent", PITS["coherent"])
+    sequence_coherent: number(
+        ("grating", "groove_lobe", "pit_sequence", "coherent"), "Coherent", SEQUENCE["coherent"], 0.3)
+    sequence_sigma: number(
+        ("grating", "groove_lobe", "pit_sequence", "sigma"), "Width of an order (sigma)", SEQUENCE["sigma"], 0.02,
+        precision=4)
     metal: choice(
         "Metal", ["perfect", *grating.METALS], lambda o: o.get("metal", "perfect"),
         lambda o, value: grating.set_metal(o, None if value == "perfect" else value))

@@ -99,6 +99,9 @@ Material* read_material(const char* json, std::size_t size, const float* efficie
     if (material->grating().transmission)
         refuse_input(name, "/transmission", "a sheet that transmits", "a reflecting grating", "leave it out");
     diffraction::Grating& grating = material->source.material.grating;
+    if (std::holds_alternative<diffraction::PitSequenceLobe>(grating.lobe))
+        refuse_input(name, "/grating/groove_lobe/pit_sequence", "a pit sequence", "\"flat\", a sigma, or pits",
+                     "pages do not draw its orders: use pits");
     if (count > 0 && grating.theory == diffraction::Theory::Scalar)
         refuse_input(name, "/grating/theory", "efficiencies beside scalar theory", "\"theory\": \"rigorous\"",
                      "add it, or leave the efficiencies out");

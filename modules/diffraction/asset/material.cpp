@@ -66,6 +66,48 @@ PitsLobe parse_pits(JsonReader json) {
     return pits;
 }
 
+/// σ of a pit sequence's orders. At the least they are as narrow as the fringes of the longest pit, which quadratures
+/// resolve; at the largest the track is coherent over less than a wavelength.
+constexpr NumberRange kPitOrderSigma{.minimum = 0.004, .maximum = 0.2};
+constexpr NumberRange kPitSpacing_nm{.minimum = 100.0, .maximum = kLongestPit_nm};
+
+std::vector<double> parse_pit_spacings(JsonReader& json) {
+    const char* const key = "spacings_nm";
+    const nlohmann::json& value = json.raw(key);
+    if (json.is_recording_schema()) {
+        json.annotate(key, fmt::format(R"({{"type": "array", "minItems": 1, "maxItems": {}, "uniqueItems": true,
+            "items": {{"type": "number", "minimum": {}, "maximum": {}}}}})",
+                                       kMostPitSpacings, kPitSpacing_nm.minimum, kPitSpacing_nm.maximum));
+        return {kPitSpacing_nm.minimum};
+    }
+    if (!value.is_array() || value.empty() || value.size() > kMostPitSpacings)
+        json.fail(key, value.is_array() ? fmt::format("a list of {}", value.size()) : "another type",
+                  fmt::format("a list of 1 to {} numbers", kMostPitSpacings));
+    std::vector<double> spacings_nm;
+    for (std::size_t i = 0; i < value.size(); ++i) {
+        const std::string location = fmt::format("{}/{}", key, i);
+        if (!value[i].is_number()) json.fail(location, "another type", "a number");
+        const double spacing_nm = value[i].get<double>();
+        if (!(spacing_nm >= kPitSpacing_nm.minimum && spacing_nm <= kPitSpacing_nm.maximum))
+            json.fail(location, value[i].dump(),
+                      fmt::format("a number in [{}, {}]", kPitSpacing_nm.minimum, kPitSpacing_nm.maximum));
+        if (i > 0 && spacing_nm <= spacings_nm.back())
+            json.fail(location, fmt::format("{} after {}", spacing_nm, spacings_nm.back()), "ascending spacings");
+        spacings_nm.push_back(spacing_nm);
+    }
+    return spacings_nm;
+}
+
+PitSequenceLobe parse_pit_sequence(JsonReader json) {
+    const PitSequenceLobe known;
+    PitSequenceLobe sequence;
+    sequence.spacings_nm = parse_pit_spacings(json);
+    sequence.coherent = json.number_or("coherent", known.coherent, kFraction);
+    sequence.sigma = json.number_or("sigma", known.sigma, kPitOrderSigma);
+    json.finish();
+    return sequence;
+}
+
 /// Diffraction by a metre of groove widens a lobe by more than this least σ. Far smaller ones are lost in the rounding
 /// of s_h + v_h.
 constexpr NumberRange kSigma{.minimum = 1e-6};
@@ -76,12 +118,14 @@ GrooveLobe parse_lobe(JsonReader& json) {
         if (value == "flat") return FlatLobe{};
         if (!value.is_object())
             json.fail("groove_lobe", value.dump(),
-                      "\"flat\", { \"sigma\": 0.2 } or { \"pits\": { \"length_nm\": 850, \"coherent\": 0.3 } }");
+                      "\"flat\", { \"sigma\": 0.2 }, { \"pits\": { \"length_nm\": 850, \"coherent\": 0.3 } } or "
+                      "{ \"pit_sequence\": { \"spacings_nm\": [900, 1200] } }");
     }
     GrooveLobe lobe;
     JsonReader reader = json.object("groove_lobe");
     reader.alternatives(
-        "pits", [&](JsonReader& with) { lobe = parse_pits(with.object("pits")); },
+        {{"pits", [&](JsonReader& with) { lobe = parse_pits(with.object("pits")); }},
+         {"pit_sequence", [&](JsonReader& with) { lobe = parse_pit_sequence(with.object("pit_sequence")); }}},
         [&](JsonReader& without) { lobe = GaussianLobe{.sigma = without.number("sigma", kSigma)}; });
     reader.finish();
     json.also_allows("groove_lobe", R"({"const": "flat"})");
@@ -97,7 +141,7 @@ void check_few_grooves(JsonReader& json, const Grating& grating) {
     };
     if (std::holds_alternative<EfficiencyTable>(grating.profile))
         refuse("a table of efficiencies", "a table does not hold the groove's spectrum between the orders");
-    if (std::holds_alternative<PitsLobe>(grating.lobe))
+    if (depends_on_wavelength(grating.lobe))
         refuse("a lobe of pits", "with few grooves the lobe must be the same for every wavelength");
 }
 

@@ -115,16 +115,23 @@ constexpr int kNodesPerWave = 6;
 /// T(r sin t) of a cover bends toward the ends of the arc.
 constexpr int kCoverNodes = 16;
 
+/// An order of a pit sequence is integrated up to so many σ on either side: beyond is 8e-11 of it.
+constexpr double kOrderReach = 6.5;
+/// Nodes of that bump, besides those of the smooth factors.
+constexpr int kOrderNodes = 18;
+
 /// The flat lobe's integrand is a trigonometric polynomial of degree `bands` in t over half a period: 16 nodes give
 /// 1e-15 at 5 bands. A lobe's core may be a bump as narrow as 1/17 of the interval: 40 nodes more.
 int core_node_count(int bands, const GrooveLobe& lobe) {
     const int smooth = std::max(16, 2 * bands + 6);
+    if (std::holds_alternative<PitSequenceLobe>(lobe)) return smooth + kOrderNodes;
     const int waves = static_cast<int>(2.0 * lobe_extent(lobe).core_half_width / lobe_extent(lobe).tail_feature_size);
     return is_flat(lobe) ? smooth : smooth + 40 + kNodesPerWave * waves;
 }
 
-/// Beyond its core a lobe varies in waves along the arc, which spans at most 2 in s_h.
+/// Beyond its core a lobe varies in waves along the arc, which spans at most 2 in s_h. A pit sequence has no tail.
 int tail_node_count(int bands, const GrooveLobe& lobe) {
+    if (std::holds_alternative<PitSequenceLobe>(lobe)) return 1;
     const int waves = static_cast<int>(std::ceil(2.0 / lobe_extent(lobe).tail_feature_size));
     return std::max(16, 2 * bands + 6) + kNodesPerWave * waves;
 }
@@ -158,6 +165,7 @@ glm::dmat3 arc_to_tangent_axes() {
 struct ArcCoefficients::Stretch {
     double begin = 0.0;
     double end = 0.0;
+    double power = 1.0;  ///< factor of the density
 };
 
 /// The arc's radius and the view along the grooves.
@@ -200,7 +208,24 @@ ArcCoefficients::Moments ArcCoefficients::interpolated(double r) const {
     return result;
 }
 
+/// Order by order: a rule over the whole arc that resolves their width takes four to six times as long.
+ArcCoefficients::Moments ArcCoefficients::summed_orders(const PitSequenceLobe& lobe, double r, double v_h,
+                                                        double wavelength_nm) const {
+    const double half_width = kOrderReach * lobe.sigma;
+    const LobeDensity gaussian(GaussianLobe{lobe.sigma}, wavelength_nm);
+    Moments result;
+    for (const PitOrder& order : pit_orders(lobe, wavelength_nm, r + std::abs(v_h) + half_width)) {
+        const double shifted_v_h = v_h - order.centre;
+        const double begin = std::acos(std::clamp((half_width - shifted_v_h) / r, -1.0, 1.0));
+        const double end = std::acos(std::clamp((-half_width - shifted_v_h) / r, -1.0, 1.0));
+        add_moments(core_rule_, {begin, end, order.power}, {r, shifted_v_h}, gaussian, result);
+    }
+    return result;
+}
+
 ArcCoefficients::Moments ArcCoefficients::integrated(double r, double v_h, double wavelength_nm) const {
+    if (const auto* sequence = std::get_if<PitSequenceLobe>(&lobe_))
+        return summed_orders(*sequence, r, v_h, wavelength_nm);
     const double core = lobe_extent(lobe_).core_half_width;
     const double begin = is_flat(lobe_) ? 0.0 : std::acos(std::clamp((core - v_h) / r, -1.0, 1.0));
     const double end = is_flat(lobe_) ? pi : std::acos(std::clamp((-core - v_h) / r, -1.0, 1.0));
@@ -217,13 +242,13 @@ ArcCoefficients::Moments ArcCoefficients::integrated(double r, double v_h, doubl
 void ArcCoefficients::add_moments(const math::QuadratureRule& rule, const Stretch& stretch, const Circle& arc,
                                   const LobeDensity& density, Moments& result) const {
     const double length = stretch.end - stretch.begin;
-    if (length <= 0.0) return;
+    if (length <= 0.0 || stretch.power == 0.0) return;
     for (std::size_t node = 0; node < rule.nodes.size(); ++node) {
         const double t = stretch.begin + length * rule.nodes[node];
         const double c = std::cos(t);
         const double s = std::sin(t);
-        const double weight =
-            length * rule.weights[node] * arc.r * s * density(arc.r * c + arc.v_h) * transmittance(cover_, arc.r * s);
+        const double weight = stretch.power * length * rule.weights[node] * arc.r * s * density(arc.r * c + arc.v_h) *
+                              transmittance(cover_, arc.r * s);
         // cos mt and sin mt by recurrence.
         double cosine = weight;
         double sine = 0.0;

@@ -77,6 +77,7 @@ class ArcCoefficients {
     struct Circle;
     Moments moments(double r, double v_h, double wavelength_nm) const;
     Moments integrated(double r, double v_h, double wavelength_nm) const;
+    Moments summed_orders(const PitSequenceLobe& lobe, double r, double v_h, double wavelength_nm) const;
     Moments interpolated(double r) const;
     void add_moments(const math::QuadratureRule& rule, const Stretch& stretch, const Circle& arc,
                      const LobeDensity& density, Moments& result) const;
@@ -84,7 +85,8 @@ class ArcCoefficients {
     int bands_;
     GrooveLobe lobe_;
     std::optional<Cover> cover_;
-    math::QuadratureRule core_rule_;  ///< on [0, 1], stretched over the part of the arc that the lobe's core reaches
+    /// On [0, 1], stretched over the part of the arc that the lobe's core, or one order of a pit sequence, reaches.
+    math::QuadratureRule core_rule_;
     math::QuadratureRule tail_rule_;  ///< on [0, 1], for the rest of the arc, where the lobe has tails
     math::ShRotation to_tangent_frame_;
     std::vector<Moments> of_radius_;  ///< flat lobe: at Chebyshev nodes of r

@@ -62,6 +62,7 @@ nlohmann::json describe(const GrooveLobe& lobe) {
                 {"coherent", pits->coherent},
                 {"coherent_sigma", kCoherentSigma},
                 {"wavelengths_nm", to_json(kPitsWavelengths_nm)}};
+    ROWLAND_CHECK(is_flat(lobe), "documents do not hold a pit sequence");
     return {{"type", "flat"}};
 }
 

@@ -28,7 +28,8 @@ struct PortableDocument {
 PortableDocument make_portable(const std::string& uri);
 
 /// Adds "material": the kernel, the layers' weights and what shades a lobe and a cover. If the efficiencies depend on
-/// the direction, adds them also and sets the document's version to kViewDependentVersion.
+/// the direction, adds them also and sets the document's version to kViewDependentVersion. The lobe must not be a pit
+/// sequence.
 void add_material(const CookedMaterial& cooked, PortableDocument& document);
 
 /// Adds "arc": the table of the representation `arc`, with the matrix from SH to its light terms.

@@ -83,7 +83,7 @@ glm::dmat3 finite_grooves_weight(const Grating& grating, const std::vector<Obser
 std::vector<SpectralTerm> finite_grooves_terms(const Grating& grating, const colour::LightSpectra& spectra,
                                                double largest_step, int refinement) {
     const std::vector<ObservedNode> spectrum = observed_nodes(spectra, refinement);
-    ROWLAND_CHECK(!std::holds_alternative<PitsLobe>(grating.lobe), "pits with few grooves");
+    ROWLAND_CHECK(!depends_on_wavelength(grating.lobe), "pits with few grooves");
     // 1 nm resolves the orders, which are λ/N ≥ 7.7 nm wide in x.
     const double step_nm = std::min(1.0, largest_step * grating.pitch_nm) / refinement;
     const double largest_path_difference_nm = 2.0 * grating.pitch_nm;

@@ -26,7 +26,14 @@ void for_each_representation(const Use& use) {
 
 bool mirrors(const GrooveLobe& lobe) {
     const auto* pits = std::get_if<PitsLobe>(&lobe);
-    return !is_flat(lobe) && (pits == nullptr || pits->coherent > 0.0);
+    return std::holds_alternative<GaussianLobe>(lobe) || (pits != nullptr && pits->coherent > 0.0);
+}
+
+/// The words for a lobe that does not mirror.
+const char* words_for(const GrooveLobe& lobe) {
+    if (is_flat(lobe)) return "a groove_lobe that is flat";
+    return std::holds_alternative<PitSequenceLobe>(lobe) ? "a pit_sequence, whose orders lie in many directions"
+                                                         : "pits that have no coherent part";
 }
 
 /// Quoted names of the representations for `lobes`, separated by commas.
@@ -57,9 +64,7 @@ std::optional<Refusal> lobe_refusal(const RepresentationInfo& info, const Gratin
                        fmt::format("{} or, for narrow lobes, {}", names_for(Lobes::Any), names_for(Lobes::Mirroring)),
                        "or make groove_lobe \"flat\""};
     if (info.lobes == Lobes::Mirroring && !mirrors(lobe))
-        return Refusal{"representation",
-                       is_flat(lobe) ? fmt::format("\"{}\" with a groove_lobe that is flat", info.name)
-                                     : fmt::format("\"{}\" with pits that have no coherent part", info.name),
+        return Refusal{"representation", fmt::format("\"{}\" with {}", info.name, words_for(lobe)),
                        "a groove_lobe with a sigma, or with pits and a coherent part",
                        fmt::format("{} take any lobe", names_for(Lobes::Any))};
     return std::nullopt;

@@ -7,6 +7,7 @@
 #include <glm/matrix.hpp>
 #include <glm/vec4.hpp>
 #include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -23,7 +24,7 @@ namespace rowland::diffraction {
 namespace {
 
 glm::dmat3 xyz_to_kernel(const CookedMaterial& cooked, const glm::dmat3& xyz_to_working) {
-    return std::holds_alternative<PitsLobe>(cooked.material.grating.lobe) ? glm::dmat3(1.0) : xyz_to_working;
+    return depends_on_wavelength(cooked.material.grating.lobe) ? glm::dmat3(1.0) : xyz_to_working;
 }
 
 /// Number of probes whose key lights' tables are kept.
@@ -92,6 +93,8 @@ void GpuKernel::add_defines(gpu::ProgramDesc& desc) const {
     if (has_zero_order()) desc.defines.push_back({"ZERO_ORDER", "1"});
     if (std::holds_alternative<GaussianLobe>(lobe)) desc.defines.push_back({"LOBE_GAUSSIAN", "1"});
     if (std::holds_alternative<PitsLobe>(lobe)) desc.defines.push_back({"LOBE_PITS", "1"});
+    if (std::holds_alternative<PitSequenceLobe>(lobe))
+        desc.defines.push_back({"LOBE_PIT_SEQUENCE", std::to_string(kMostPitSpacings)});
 }
 
 void GpuKernel::set_lobe(const gpu::Program& program) const {
@@ -105,6 +108,17 @@ void GpuKernel::set_lobe(const gpu::Program& program) const {
         set_gaussian(kCoherentSigma, pits->coherent);
         program.set("pit_length_over_wavelength", glm::vec3(pits->length_nm / kPitsWavelengths_nm));
         program.set("incoherent", static_cast<float>(1.0 - pits->coherent));
+    }
+    if (const auto* sequence = std::get_if<PitSequenceLobe>(&lobe)) {
+        set_gaussian(sequence->sigma, 1.0);
+        const auto count = static_cast<double>(sequence->spacings_nm.size());
+        const double of_first_order = (1.0 - sequence->coherent) / count * pit_order_power(1);
+        program.set("pit_powers", glm::vec2(glm::dvec2(sequence->coherent, of_first_order)));
+        std::vector<glm::vec4> spacings;
+        for (const double spacing_nm : sequence->spacings_nm)
+            spacings.emplace_back(glm::dvec4(spacing_nm / kPitsWavelengths_nm, 0.0));
+        program.set("pit_spacing_count", static_cast<int>(spacings.size()));
+        program.set("pit_spacings", std::span<const glm::vec4>(spacings));
     }
 }
 

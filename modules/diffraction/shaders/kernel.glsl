@@ -80,7 +80,7 @@ vec3 kernel_value(float u, float v_g, float deviation, vec3 rgb) {
 }
 
 // 2 D_h(s_h + v_h) for X, Y and Z, widened by the light's extent along the grooves: representations/direct/direct.h,
-// groove_factor(). The program defines LOBE_GAUSSIAN, LOBE_PITS or, for the flat lobe, neither.
+// groove_factor(). The program defines LOBE_GAUSSIAN, LOBE_PITS, LOBE_PIT_SEQUENCE or, for the flat lobe, none of them.
 
 #if defined(LOBE_GAUSSIAN)
 uniform vec2 lobe_gaussian;  // deviation; peak of D_h
@@ -112,6 +112,27 @@ vec3 pits_factor(float sum_h, float deviation_h, float peak) {
 }
 vec3 groove_factor(float sum_h, float deviation_h) { return pits_factor(sum_h, deviation_h, lobe_gaussian.y); }
 vec3 groove_factor(float sum_h) { return pits_factor(vec3(sum_h), vec3(2.0, 0.0, 0.0), lobe_gaussian.y); }
+#elif defined(LOBE_PIT_SEQUENCE)
+uniform vec2 lobe_gaussian;  // of one order of power 1
+uniform vec2 pit_powers;     // of order 0, and of order 1 of one spacing
+uniform int pit_spacing_count;
+uniform vec4 pit_spacings[LOBE_PIT_SEQUENCE];  // b / wavelength for X, Y and Z
+// PHYSICS (3.5): the odd orders within four deviations of `sum_h`.
+vec3 groove_factor(float sum_h, float deviation_h) {
+    float wide = length(vec2(lobe_gaussian.x, deviation_h));
+    float z = abs(sum_h);
+    vec3 sum = vec3(pit_powers.x * exp(-0.5 * z * z / (wide * wide)));
+    for (int i = 0; i < pit_spacing_count; ++i)
+        for (int o = 0; o < 3; ++o) {
+            float spacing = pit_spacings[i][o];
+            float last = (z + 4.0 * wide) * spacing;
+            for (float m = 2.0 * ceil(0.5 * ((z - 4.0 * wide) * spacing - 1.0)) + 1.0; m <= last; m += 2.0) {
+                float x = (z - m / spacing) / wide;
+                sum[o] += pit_powers.y / (m * m) * exp(-0.5 * x * x);
+            }
+        }
+    return (2.0 * lobe_gaussian.y * lobe_gaussian.x / wide) * sum;
+}
 #else
 vec3 groove_factor(float sum_h, float deviation_h) { return vec3(1.0); }
 #endif
@@ -128,7 +149,7 @@ vec3 key_groove_factor(float sum_h, float deviation_h) { return groove_factor(su
 
 // The kernel's values are in the working space; with pits, which have a factor each for X, Y and Z, in XYZ.
 vec3 kernel_to_working(vec3 value) {
-#ifdef LOBE_PITS
+#if defined(LOBE_PITS) || defined(LOBE_PIT_SEQUENCE)
     return mat3(xyz_to_working) * value;
 #else
     return value;
@@ -152,6 +173,8 @@ vec3 small_light_factor(float sum_h, float variance_h) {
 #endif
     return factor;
 }
+#elif defined(LOBE_PIT_SEQUENCE)
+vec3 small_light_factor(float sum_h, float variance_h) { return groove_factor(sum_h, sqrt(max(variance_h, 0.0))); }
 #else
 vec3 small_light_factor(float sum_h, float variance_h) { return vec3(1.0); }
 #endif
@@ -239,7 +262,7 @@ float lobe_transmittance(float mean_n, vec4 moments) {
 #endif
 }
 
-#if defined(LOBE_GAUSSIAN) || defined(LOBE_PITS)
+#if defined(LOBE_GAUSSIAN) || defined(LOBE_PITS) || defined(LOBE_PIT_SEQUENCE)
 // Mean and deviation of s_h, directions weighted by s_n above the horizon: direct.cpp, clamp_at_horizon(). `mean`: of the
 // lobe's directions, in (g, h, n); `moments`: of KeyLobe.
 vec2 spread_along_grooves(vec3 mean, vec4 moments) {

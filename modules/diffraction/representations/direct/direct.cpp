@@ -67,6 +67,13 @@ double widened_density(const GrooveLobe& lobe, double sum_h, double deviation_h,
         const double z = sum_h / wide;
         return peak * std::exp(-0.5 * z * z);
     }
+    if (const auto* sequence = std::get_if<PitSequenceLobe>(&lobe)) {
+        PitSequenceLobe wide = *sequence;
+        wide.sigma = std::hypot(sequence->sigma, deviation_h);
+        // Each order keeps its power over all real numbers.
+        const auto inside = [](double sigma) { return std::erf(1.0 / (sigma * std::numbers::sqrt2)); };
+        return inside(wide.sigma) / inside(sequence->sigma) * LobeDensity(wide, wavelength_nm)(sum_h);
+    }
     // Pits: three-node Gauss–Hermite over the light's extent.
     const LobeDensity density(lobe, wavelength_nm);
     const double step = std::sqrt(3.0) * deviation_h;

@@ -60,8 +60,8 @@ struct DirectMaterial {
     std::optional<Cover> cover = std::nullopt;
 };
 
-/// Wavelengths at which the pits' lobe is evaluated for X, Y and Z. 𝒦 sums over all orders and wavelengths, so the
-/// wavelength of a look-up is not known.
+/// Wavelengths at which a lobe that depends on them, of pits or a pit sequence, is evaluated for X, Y and Z. 𝒦 sums
+/// over all orders and wavelengths, so the wavelength of a look-up is not known.
 inline constexpr glm::dvec3 kPitsWavelengths_nm{591.0, 557.0, 449.0};
 
 /// 2 D_h(s_h + v_h) for X, Y and Z, the lobe widened by the light's own extent along the grooves.

@@ -21,15 +21,28 @@ constexpr std::size_t kLanes = FourierTransform::kLanes;
 
 /// Pits' lobes are tabulated at this many wavelengths, and linear between.
 constexpr std::size_t kPitWavelengths = 16;
+/// Those of pit sequences, whose orders move with the wavelength, at up to this many.
+constexpr std::size_t kMostSequenceWavelengths = 256;
 /// Sample points of a lobe in each step of the grid.
 constexpr int kLobePoints = 16;
 
-std::vector<double> wavelengths_of(const GrooveLobe& lobe) {
-    if (!std::holds_alternative<PitsLobe>(lobe)) return {0.5 * (colour::kVisibleMin + colour::kVisibleMax)};
+/// From one wavelength to the next an order of a pit sequence at the farthest s_h + v_h, 2, moves by σ or a step of the
+/// grid, whichever is more.
+std::size_t wavelength_count(const GrooveLobe& lobe, double step) {
+    if (!depends_on_wavelength(lobe)) return 1;
+    if (!std::holds_alternative<PitSequenceLobe>(lobe)) return kPitWavelengths;
+    const double spacing_nm = 0.5 * colour::kVisibleMin * std::max(lobe_extent(lobe).feature_size, step);
+    const auto count = static_cast<std::size_t>(std::ceil((colour::kVisibleMax - colour::kVisibleMin) / spacing_nm));
+    return std::clamp(count + 1, kPitWavelengths, kMostSequenceWavelengths);
+}
+
+std::vector<double> wavelengths_of(const GrooveLobe& lobe, double step) {
+    const std::size_t count = wavelength_count(lobe, step);
+    if (count == 1) return {0.5 * (colour::kVisibleMin + colour::kVisibleMax)};
     std::vector<double> wavelengths_nm;
-    for (std::size_t i = 0; i < kPitWavelengths; ++i)
+    for (std::size_t i = 0; i < count; ++i)
         wavelengths_nm.push_back(colour::kVisibleMin + (colour::kVisibleMax - colour::kVisibleMin) *
-                                                           static_cast<double>(i) / (kPitWavelengths - 1));
+                                                           static_cast<double>(i) / static_cast<double>(count - 1));
     return wavelengths_nm;
 }
 
@@ -210,7 +223,7 @@ double LobeSpectrum::factor() const {
 }
 
 void LobeSpectrum::fill_lobe(const DiffractionPattern& pattern) {
-    const std::vector<double> wavelengths_nm = wavelengths_of(*pattern.lobe);
+    const std::vector<double> wavelengths_nm = wavelengths_of(*pattern.lobe, views_.step_h());
     std::vector<std::vector<double>> lobes(wavelengths_nm.size());
     std::vector<TransformedOrders> orders(wavelengths_nm.size() * terms());  // by term
     parallel_for(orders.size(), [&](std::size_t i) {

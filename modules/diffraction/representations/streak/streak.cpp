@@ -36,7 +36,9 @@ NarrowLobe narrow_lobe(const GrooveLobe& lobe) {
         if (pits->coherent > 0.0) return {kCoherentSigma, pits->coherent};
     throw Error({.file = {},
                  .location = "groove_lobe",
-                 .found = is_flat(lobe) ? "flat" : "pits without a coherent part",
+                 .found = is_flat(lobe)                                   ? "flat"
+                          : std::holds_alternative<PitSequenceLobe>(lobe) ? "a pit_sequence"
+                                                                          : "pits without a coherent part",
                  .expected = "a narrow lobe: sigma, or pits with a coherent part, for the representation \"streak\"",
                  .remedy = "use \"arc\" or \"spikes\""});
 }

@@ -93,6 +93,14 @@ TEST_F(Direct, PitsEqualTheCpu) {
     expect_drawn(key_lights(cooked));
 }
 
+/// The shader leaves out what an order has beyond four deviations.
+TEST_F(Direct, APitSequenceEqualsTheCpu) {
+    light_ = light_of(smooth_probe(), three_keys());
+    const CookedMaterial cooked = cook(kPitSequence, kDirect);
+    show(cooked, 0.1);
+    expect_drawn(key_lights(cooked));
+}
+
 /// Order 0 is a delta function of u.
 TEST_F(Direct, OrderZeroShowsTheLobesThemselves) {
     light_ = light_of(smooth_probe(), three_keys());

@@ -20,6 +20,9 @@ inline constexpr const char* kFoil = R"({"pitch_nm": 1000, "profile": {"type": "
 inline constexpr const char* kPits = R"({"pitch_nm": 1500, "profile": {"type": "slit", "width_nm": 700},
                                          "groove_lobe": {"pits": {"length_nm": 850, "coherent": 0.3}}})";
 
+inline constexpr const char* kPitSequence = R"({"pitch_nm": 1500, "profile": {"type": "slit", "width_nm": 700},
+    "groove_lobe": {"pit_sequence": {"spacings_nm": [900, 1800, 3300], "coherent": 0.3, "sigma": 0.03}}})";
+
 /// A material of these two JSON objects, and further members.
 CookedMaterial cook(const std::string& grating, const std::string& quality, const std::string& others = "");
 

@@ -31,12 +31,14 @@ std::vector<json> lobes() {
     return {"flat",
             {{"sigma", 0.1}},
             {{"pits", {{"length_nm", 850}, {"coherent", 0.3}}}},
-            {{"pits", {{"length_nm", 850}, {"coherent", 0.0}}}}};
+            {{"pits", {{"length_nm", 850}, {"coherent", 0.0}}}},
+            {{"pit_sequence", {{"spacings_nm", {900, 1200}}}}}};
 }
 
 /// Few grooves go with neither a table nor pits, whatever the method.
 bool is_material(const json& file) {
-    return !file["grating"]["groove_lobe"].contains("pits") || file["grating"]["grooves"] >= kManyGrooves;
+    const json& lobe = file["grating"]["groove_lobe"];
+    return !(lobe.contains("pits") || lobe.contains("pit_sequence")) || file["grating"]["grooves"] >= kManyGrooves;
 }
 
 /// One folder of inputs, and the programs run in it.

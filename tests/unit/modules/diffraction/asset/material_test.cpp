@@ -125,6 +125,14 @@ TEST(MaterialJson, EveryVariantReachesTheMaterial) {
     const Material pits = parse(grating(R"(, "groove_lobe": {"pits": {"length_nm": 900, "coherent": 0.4}})"));
     EXPECT_EQ(std::get<PitsLobe>(pits.grating.lobe).length_nm, 900.0);
     EXPECT_EQ(std::get<PitsLobe>(pits.grating.lobe).coherent, 0.4);
+    const Material sequence = parse(grating(
+        R"(, "groove_lobe": {"pit_sequence": {"spacings_nm": [900, 1250.5], "coherent": 0.4, "sigma": 0.03}})"));
+    EXPECT_EQ(std::get<PitSequenceLobe>(sequence.grating.lobe).spacings_nm, (std::vector<double>{900.0, 1250.5}));
+    EXPECT_EQ(std::get<PitSequenceLobe>(sequence.grating.lobe).coherent, 0.4);
+    EXPECT_EQ(std::get<PitSequenceLobe>(sequence.grating.lobe).sigma, 0.03);
+    const Material one_spacing = parse(grating(R"(, "groove_lobe": {"pit_sequence": {"spacings_nm": [1800]}})"));
+    EXPECT_EQ(std::get<PitSequenceLobe>(one_spacing.grating.lobe).coherent, PitSequenceLobe{}.coherent);
+    EXPECT_EQ(std::get<PitSequenceLobe>(one_spacing.grating.lobe).sigma, kCoherentSigma);
     EXPECT_EQ(parse(grating(R"(, "normalization": "agu")")).grating.normalization, Normalization::Agu);
     EXPECT_EQ(parse(grating(R"(, "grooves": 1)")).grating.grooves, 1.0);
     EXPECT_EQ(
@@ -219,6 +227,23 @@ TEST(MaterialJson, MembersOutOfTheirDomainAreRefusedByFileAndPointer) {
         {member(R"("groove_lobe": {"pits": {"length_nm": 0, "coherent": 0.3}})"), {"/groove_lobe/pits/length_nm"}},
         {member(R"("groove_lobe": {"pits": {"length_nm": 850, "coherent": 1.3}})"), {"/groove_lobe/pits/coherent"}},
         {member(R"("grooves": 7, "groove_lobe": {"pits": {"length_nm": 850, "coherent": 0.3}})"),
+         {"/grating/grooves", "pits"}},
+        {member(R"("groove_lobe": {"pit_sequense": {"spacings_nm": [900]}})"), {"pit_sequense", "pit_sequence"}},
+        {member(R"("groove_lobe": {"pit_sequence": {}})"), {"/groove_lobe/pit_sequence/spacings_nm"}},
+        {member(R"("groove_lobe": {"pit_sequence": {"spacings": [900]}})"), {"spacings_nm"}},
+        {member(R"("groove_lobe": {"pit_sequence": {"spacings_nm": 900}})"), {"/pit_sequence/spacings_nm", "list"}},
+        {member(R"("groove_lobe": {"pit_sequence": {"spacings_nm": []}})"), {"/pit_sequence/spacings_nm", "1 to 16"}},
+        {member(R"("groove_lobe": {"pit_sequence": {"spacings_nm": [1,2,3,4,5,6,7,8,9,10,11,12,13,14,15,16,17]}})"),
+         {"/pit_sequence/spacings_nm", "1 to 16"}},
+        {member(R"("groove_lobe": {"pit_sequence": {"spacings_nm": [99]}})"), {"/spacings_nm/0", "[100, 100000]"}},
+        {member(R"("groove_lobe": {"pit_sequence": {"spacings_nm": [900, "x"]}})"), {"/spacings_nm/1"}},
+        {member(R"("groove_lobe": {"pit_sequence": {"spacings_nm": [900, 900]}})"), {"/spacings_nm/1", "ascending"}},
+        {member(R"("groove_lobe": {"pit_sequence": {"spacings_nm": [900], "coherent": 1.3}})"), {"/coherent"}},
+        {member(R"("groove_lobe": {"pit_sequence": {"spacings_nm": [900], "sigma": 0.3}})"), {"/sigma"}},
+        {member(
+             R"("groove_lobe": {"pits": {"length_nm": 850, "coherent": 0.3}, "pit_sequence": {"spacings_nm": [900]}})"),
+         {"pit_sequence"}},
+        {member(R"("grooves": 7, "groove_lobe": {"pit_sequence": {"spacings_nm": [900]}})"),
          {"/grating/grooves", "pits"}},
         {with_profile(kTable, R"(, "grooves": 49)"), {"/grating/grooves", "table"}},
         {with_profile(R"({"type": "sinusoidal", "depth_nm": 100})", R"(, "normalization": "agu")"), {"slit"}},

@@ -103,10 +103,12 @@ TEST(ArcCoefficients, AreTheDefiningIntegralForEveryLobe) {
                                                                          {GaussianLobe{2.0}, {}},
                                                                          {PitsLobe{850.0, 0.3}, {}},
                                                                          {PitsLobe{4000.0, 0.0}, {}},
+                                                                         {PitSequenceLobe{}, {}},
                                                                          {FlatLobe{}, polycarbonate},
                                                                          {FlatLobe{}, Cover{.ior = 1.05}},
                                                                          {GaussianLobe{0.02}, polycarbonate},
-                                                                         {PitsLobe{850.0, 0.3}, polycarbonate}};
+                                                                         {PitsLobe{850.0, 0.3}, polycarbonate},
+                                                                         {PitSequenceLobe{}, polycarbonate}};
     for (const auto& [lobe, cover] : cases) {
         const ArcCoefficients arcs(bands, lobe, cover);
         for (const double a : {-0.95, 0.0, 0.4}) {

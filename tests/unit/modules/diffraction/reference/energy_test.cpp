@@ -92,11 +92,12 @@ std::vector<ShadingPoint> tilted(const std::vector<double>& polar_deg, const std
 /// or not. Views from the normal to grazing, across and along the grooves.
 TEST(Energy, NothingComesOutThatDidNotFallInAtAnyAngle) {
     const std::vector<ShadingPoint> frames = tilted({55.0, 0.0, 15.0, 35.0, 75.0, 89.0}, {0.0, 40.0, 90.0, 180.0});
-    for (const GrooveLobe& lobe : {GrooveLobe{FlatLobe{}}, GrooveLobe{GaussianLobe{0.02}},
-                                   GrooveLobe{GaussianLobe{0.5}}, GrooveLobe{PitsLobe{850.0, 0.3}}}) {
+    for (const GrooveLobe& lobe :
+         {GrooveLobe{FlatLobe{}}, GrooveLobe{GaussianLobe{0.02}}, GrooveLobe{GaussianLobe{0.5}},
+          GrooveLobe{PitsLobe{850.0, 0.3}}, GrooveLobe{PitSequenceLobe{{1200.0, 2700.0}, 0.5, 0.05}}}) {
         double largest = 0.0;
         // Pits take a thousand nodes per arc, so only the first points are checked.
-        const auto some = std::span(frames).first(std::holds_alternative<PitsLobe>(lobe) ? 3 : frames.size());
+        const auto some = std::span(frames).first(depends_on_wavelength(lobe) ? 3 : frames.size());
         for (const Profile& profile : profiles())
             for (const glm::dvec3& xyz :
                  reference_radiance(complete(profile, lobe), white_light(), colour::LightSpectra(), some)) {

@@ -177,8 +177,9 @@ TEST(Reference, GrazingViewsStayFinite) {
         frames.push_back({.view = {1.0, 0.0, v_n}, .normal = {0, 0, 1}, .grating = {1, 0, 0}});
         frames.push_back({.view = {0.0, 1.0, v_n}, .normal = {0, 0, 1}, .grating = {1, 0, 0}});
     }
-    for (const GrooveLobe& lobe : {GrooveLobe{FlatLobe{}}, GrooveLobe{GaussianLobe{1e-3}},
-                                   GrooveLobe{GaussianLobe{1e3}}, GrooveLobe{PitsLobe{850.0, 0.3}}}) {
+    for (const GrooveLobe& lobe :
+         {GrooveLobe{FlatLobe{}}, GrooveLobe{GaussianLobe{1e-3}}, GrooveLobe{GaussianLobe{1e3}},
+          GrooveLobe{PitsLobe{850.0, 0.3}}, GrooveLobe{PitSequenceLobe{{1200.0, 2700.0}, 0.3, 0.05}}}) {
         Grating grating = compact_disc();
         grating.lobe = lobe;
         for (const glm::dvec3& xyz :
@@ -186,6 +187,41 @@ TEST(Reference, GrazingViewsStayFinite) {
             EXPECT_TRUE(std::isfinite(xyz.x + xyz.y + xyz.z));
             EXPECT_GE(xyz.y, 0.0);
         }
+    }
+}
+
+/// The obvious sum: s_n dω is ds_g ds_h, so an arc is ∫ L D_h ds_h (PHYSICS §4). 1e-3: a thousand steps of s_h cut the
+/// horizon anywhere within the last.
+TEST(Reference, OfAPitSequenceIsTheSumAlongTheGrooves) {
+    Grating grating = compact_disc();
+    grating.lobe = PitSequenceLobe{};
+    const lighting::ShLight light{
+        .bands = 2, .coefficients = {{3.0, 2.5, 2.0}, {0.5, 0.2, -0.3}, {0.4, 0.6, 0.8}, {0.7, -0.2, 0.1}}};
+    const IncidentLight incident(light);
+    const colour::LightSpectra spectra;
+    for (const glm::dvec2& v : {glm::dvec2(0.3, -0.4), glm::dvec2(-0.1, 0.7)}) {
+        const glm::dvec3 view(v, std::sqrt(1.0 - glm::dot(v, v)));
+        glm::dvec3 expected(0.0);
+        for (int nm = colour::kVisibleMin; nm <= colour::kVisibleMax; ++nm) {
+            const LobeDensity density(grating.lobe, nm);
+            for (const int order : grating.orders) {
+                const double s_g = order * nm / grating.pitch_nm - view.x;
+                if (std::abs(s_g) >= 1.0) continue;
+                const double r = std::sqrt(1.0 - s_g * s_g);
+                constexpr int kSteps = 1000;
+                glm::dvec3 arc(0.0);
+                for (int i = 0; i < kSteps; ++i) {
+                    const double s_h = r * ((2.0 * i + 1.0) / kSteps - 1.0);
+                    arc += 2.0 * r / kSteps * density(s_h + view.y) *
+                           incident.radiance({s_g, s_h, std::sqrt(r * r - s_h * s_h)});
+                }
+                const double step_nm = nm == colour::kVisibleMin || nm == colour::kVisibleMax ? 0.5 : 1.0;
+                expected += step_nm * order_efficiency(grating, order, nm) * (observed_spectra(spectra, nm) * arc);
+            }
+        }
+        const ShadingPoint point{.view = view, .normal = {0, 0, 1}, .grating = {1, 0, 0}};
+        const glm::dvec3 found = reference_radiance(grating, light, spectra, std::span(&point, 1)).front();
+        EXPECT_LT(glm::length(found - expected), 1e-3 * glm::length(expected)) << v.x << " " << v.y;
     }
 }
 

@@ -175,6 +175,26 @@ TEST(Direct, GaussianGroovesWeightTheLobe) {
     EXPECT_GT(relative_rms(radiance(kernels.table, {1600.0}, key), expected), 0.2);
 }
 
+/// The slow sum is the convolution with the light's normal distribution, 2000 steps over ±6 deviations.
+TEST(Direct, ALightWidensEachOrderOfAPitSequence) {
+    const GrooveLobe grooves = PitSequenceLobe{};
+    for (const double deviation : {0.0, 0.01, 0.2}) {
+        const LightSpot spot{.centre_h = 0.1, .deviation_h = deviation};
+        const glm::dvec3 found = groove_factor(grooves, spot, 0.3);
+        for (int o = 0; o < 3; ++o) {
+            const LobeDensity density(grooves, kPitsWavelengths_nm[o]);
+            double expected = deviation == 0.0 ? 2.0 * density(0.4) : 0.0;
+            constexpr int kSteps = 2000;
+            for (int i = 0; i < kSteps && deviation > 0.0; ++i) {
+                const double x = 6.0 * ((2.0 * i + 1.0) / kSteps - 1.0);
+                expected += 2.0 * 12.0 / kSteps * std::exp(-0.5 * x * x) / std::sqrt(2.0 * std::numbers::pi) *
+                            density(0.4 + x * deviation);
+            }
+            EXPECT_NEAR(found[o], expected, 1e-6 * expected) << deviation << " " << o;
+        }
+    }
+}
+
 /// A pixel's footprint is a mean over u.
 TEST(Direct, FootprintIsTheMeanOverThePixel) {
     const Kernels kernels(compact_disc());

@@ -122,6 +122,7 @@ TEST(LobeMap, EqualsTheReferenceUnderSmoothLight) {
                                                      {"pits", with_lobe(PitsLobe{})},
                                                      {"incoherent pits", with_lobe(PitsLobe{.coherent = 0.0})},
                                                      {"long pits, fine pitch", long_pits},
+                                                     {"pit sequence", with_lobe(PitSequenceLobe{})},
                                                      {"blazed", blazed},
                                                      {"crossed", crossed_foil()},
                                                      {"screen", screen()},
@@ -333,8 +334,8 @@ TEST(LobeMapAroundALamp, IsNeverNegativeAndHasNoStripes) {
 
 /// Each material under the two captures with the smallest lamps, and under two or three of the others.
 TEST(EveryLobeMapAroundALamp, IsNeverNegativeAndHasNoStripes) {
-    const std::vector<const char*> materials = {"crossed_foil", "butterfly_wing", "phone_screen",
-                                                "diffraction_glasses", "feather"};
+    const std::vector<const char*> materials = {"crossed_foil", "butterfly_wing", "phone_screen", "diffraction_glasses",
+                                                "feather"};
     for (const char* capture : {"interior", "night"}) expect_no_rings(capture, materials, 25);
     std::size_t next = 0;
     for (const char* capture : {"city", "courtyard", "forest", "studio", "sunrise", "sunset"}) {
