@@ -14,6 +14,7 @@
 #include "modules/thin_film/module.h"
 #include "modules/thin_film/runtime/film_surface.h"
 #include "tests/benchmark/cd_materials.h"
+#include "tests/evidence/peers/peer_material.h"
 
 namespace rowland::benchmark {
 
@@ -130,6 +131,7 @@ std::unique_ptr<render::Renderer> FrameStage::make_renderer(const FrameVariant& 
     diffraction::register_module(*renderer, settings);
     thin_film::register_module(*renderer);
     renderer->add_material_type(std::make_unique<trade::LightLoopType>());
+    renderer->add_material_type(std::make_unique<evidence::PeerType>());
     renderer->set_probe(probe_of(variant));
     renderer->use_key_lights(variant.lighting == Lighting::StudioKeyLights);
     renderer->set_effects(effects_of(variant.effect));
@@ -190,6 +192,7 @@ FrameScene::FrameScene(FrameVariant variant, FrameStage& stage, bool software)
             distant.push_back({lamp.direction, lamp.irradiance});
         }
         if (variant_.shader == Shader::LightLoop) shade_in_a_loop(distant);
+        if (variant_.shader == Shader::Peer) shade_by_peer(distant);
     } else {
         world_.add(world_.create(), scene::DirectionalLight{.direction = glm::normalize(glm::vec3(0.3F, 1.0F, 0.4F)),
                                                             .irradiance = glm::vec3(0.5F),
@@ -255,6 +258,11 @@ void FrameScene::shade_in_a_loop(const std::vector<render::DistantLight>& lights
     auto loop = std::make_shared<trade::LightLoop>(grating, colour::LightSpectra(), stage_->xyz_to_working());
     loop->set_lights(lights);
     world_.add(disc_, trade::LightLoopSurface{std::move(loop)});
+}
+
+void FrameScene::shade_by_peer(const std::vector<render::DistantLight>& lights) {
+    world_.add(disc_, evidence::PeerSurface{&evidence::peer_named(variant_.peer),
+                                            std::make_shared<const gpu::Buffer>(evidence::light_buffer(lights))});
 }
 
 FrameTime FrameScene::draw() {

@@ -76,6 +76,7 @@ class FrameScene {
     void add_wear();
     void add_reflected_plane();
     void shade_in_a_loop(const std::vector<render::DistantLight>& lights);
+    void shade_by_peer(const std::vector<render::DistantLight>& lights);
 
     FrameVariant variant_;
     FrameStage* stage_;

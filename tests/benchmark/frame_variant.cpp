@@ -6,6 +6,7 @@
 
 #include "engine/core/error.h"
 #include "tests/benchmark/cd_materials.h"
+#include "tests/evidence/peers/peer_material.h"
 
 namespace rowland::benchmark {
 
@@ -125,6 +126,16 @@ void add_under_lights(const std::string& name, const json& material, const Timed
         add(with_lamps(grating(direct, "/lights:", "direct/lights:", Lighting::LampsInScene), lamps));
 }
 
+void add_peers(std::vector<FrameVariant>& variants) {
+    for (const evidence::Peer& peer : evidence::peers_of_discs())
+        for (const int lamps : {1, 16}) {
+            const std::string name = std::string("peer/") + peer.name + "/lights:" + std::to_string(lamps);
+            variants.push_back(engine_surface(name, Shader::Peer, Lighting::LampsInScene));
+            variants.back().peer = peer.name;
+            variants.back().lamps = lamps;
+        }
+}
+
 bool matches(const std::string& pattern, const std::string& name) {
     return fnmatch(pattern.c_str(), name.c_str(), 0) == 0;
 }
@@ -159,6 +170,7 @@ std::vector<FrameVariant> all_variants() {
     }
     variants.push_back(
         grating({"arc", {{"representation", "arc"}, {"bands", 8}, {"rank", 12}}, true}, "/bands:8/rank:12", "plain"));
+    add_peers(variants);
     return variants;
 }
 

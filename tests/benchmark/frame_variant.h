@@ -13,6 +13,7 @@ enum class Shader {
     Grating,    ///< a diffraction material
     Film,       ///< the engine's surface under a thin film
     LightLoop,  ///< the grating's lights and orders one by one (editor/trade/stage.h)
+    Peer,       ///< what others use for discs, light by light (tests/evidence/peers/)
 };
 
 /// Where light comes from besides the sun, one directional light.
@@ -38,6 +39,7 @@ struct FrameVariant {
     std::string baseline;  ///< the name of the variant that this one's time is divided by
     Shader shader = Shader::Plain;
     nlohmann::json material;  ///< of Shader::Grating and Film: a material file
+    std::string peer = {};    ///< of Shader::Peer: its name
     Lighting lighting = Lighting::Studio;
     int lamps = 0;
     bool shadow = false;  ///< the sun casts one

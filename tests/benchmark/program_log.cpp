@@ -67,6 +67,8 @@ LoopLengths loop_lengths(GLuint program) {
         if (const std::optional<int> value = value_of(program, component)) lengths[component.expression] = *value;
     if (const std::optional<int> segments = array_length(program, "StreakSegments", "streak_segments[0].first_step"))
         lengths["streak_segments.length()"] = *segments;
+    if (const std::optional<int> lights = array_length(program, "PeerLights", "peer_lights[0].direction"))
+        lengths["peer_lights.length()"] = *lights;
     return lengths;
 }
 

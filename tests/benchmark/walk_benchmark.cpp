@@ -3,7 +3,6 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <map>
@@ -15,133 +14,30 @@
 
 #include "content/demo/pixel/pixel_meter.h"
 #include "content/demo/pixel/surface_point.h"
-#include "engine/asset/container.h"
-#include "engine/colour/colour_space.h"
 #include "engine/colour/illuminant.h"
 #include "engine/command_line/command_line.h"
 #include "engine/core/error.h"
+#include "engine/core/file.h"
 #include "engine/core/log.h"
 #include "engine/core/program.h"
 #include "engine/gpu/framebuffer.h"
-#include "engine/lighting/light_probe.h"
-#include "engine/live/live_assets.h"
 #include "engine/platform/gl_context.h"
 #include "engine/render/capture.h"
 #include "engine/render/gpu_mesh.h"
-#include "engine/render/renderer.h"
-#include "engine/render/scene_instance.h"
-#include "engine/render/scene_lights.h"
-#include "engine/scene/mesh_recipe.h"
-#include "engine/scene/transform.h"
-#include "modules/asset_types.h"
 #include "modules/diffraction/evaluate/error_measure.h"
 #include "modules/diffraction/evaluate/point_shader.h"
 #include "modules/diffraction/module.h"
 #include "modules/diffraction/reference/reference.h"
 #include "modules/diffraction/runtime/diffraction_surface.h"
 #include "modules/diffraction/runtime/vertex_light.h"
-#include "modules/material_types.h"
+#include "tests/benchmark/walk_budgets.h"
+#include "tests/benchmark/walk_rooms.h"
 
 namespace rowland {
 namespace {
 
-using Clock = std::chrono::steady_clock;
+using namespace benchmark;
 using Pixels = std::vector<glm::vec4>;
-
-/// Where rooms.glb has its doors, along x in metres, and the path through them.
-constexpr std::array kDoors_m = {6.1F, 12.3F};
-constexpr float kBegin_m = 0.6F;
-constexpr float kEnd_m = 17.8F;
-constexpr float kEyeHeight_m = 1.6F;
-
-struct Options {
-    std::filesystem::path scene;
-    glm::ivec2 size{320, 180};
-    int frames = 200;  ///< through a door
-    int stops = 64;
-    int face_size = 64;  ///< of the captured light
-};
-
-scene::Camera camera_at(float x, const glm::vec3& forward) {
-    const glm::vec3 eye(x, kEyeHeight_m, 0.0F);
-    return {.eye = eye, .target = eye + forward, .vertical_field_of_view = 0.9F, .near_plane = 0.02F};
-}
-
-/// The rooms, under a probe for each box or, as if there was no box, under one.
-class Rooms {
- public:
-    Rooms(const Options& options, std::optional<std::size_t> one_probe)
-        : renderer_(glm::inverse(colour::rec709_to_xyz())) {
-        modules::register_material_types(renderer_);
-        const auto registry = modules::asset_types();
-        std::vector<std::filesystem::path> files;
-        const scene::ImportedScene scene = live::load_scene(*registry, options.scene, {}, files);
-        const auto& sky = options.scene.parent_path() / "evening.probe";
-        const auto cooked = asset::load(sky, "probe", lighting::kLightProbeVersion);
-        renderer_.set_probe(lighting::deserialise(cooked.payload, sky.string()));
-        renderer_.use_key_lights(true);
-        instance_ = render::instantiate(world_, scene, renderer_, options.scene.string());
-        scene::update_world_matrices(world_);
-        volumes_ = render::gather_volumes(world_);
-        if (!one_probe) return;
-        renderer_.set_probe(lighting::LightProbe(*volumes_.probes.at(*one_probe)));
-        remove_boxes();
-    }
-
-    void remove_boxes() {
-        for (const ecs::Entity box : instance_.probes) world_.destroy(box);
-        instance_.probes.clear();
-    }
-
-    /// A disc and a sphere of gratings of the scene, carried before the camera.
-    void carry_gratings() {
-        std::map<bool, std::shared_ptr<const diffraction::GpuMaterial>> materials;  // by whether they are for discs
-        world_.view<diffraction::DiffractionSurface>().each(
-            [&](ecs::Entity, const diffraction::DiffractionSurface& surface) {
-                const auto& measured = surface.material->cooked()->measured;
-                if (measured && !surface.material->base().passes_light)
-                    materials.emplace(measured->surface == diffraction::SurfaceShape::Flat, surface.material);
-            });
-        const std::array meshes = {scene::build_mesh(scene::SphereRecipe{.radius = 0.05}),
-                                   scene::build_mesh(scene::DiscRecipe{
-                                       .inner_radius = 0.01, .outer_radius = 0.06, .rings = 4, .segments = 64})};
-        for (const bool is_disc : {false, true}) {
-            const ecs::Entity entity = carried_.emplace_back(world_.create());
-            world_.add(entity, scene::Transform{});
-            world_.add(entity, render::make_mesh_instance(meshes[is_disc ? 1 : 0]));
-            world_.add(entity, render::StandardMaterial{});
-            diffraction::add_surface(world_, entity, {.material = materials.at(is_disc)}, true);
-        }
-    }
-
-    void carry_at(const scene::Camera& camera) {
-        const glm::vec3 forward = glm::normalize(camera.target - camera.eye);
-        const glm::vec3 right = glm::normalize(glm::cross(forward, camera.up));
-        for (std::size_t i = 0; i < carried_.size(); ++i)
-            world_.get<scene::Transform>(carried_[i]) = {
-                .translation = camera.eye + 0.4F * forward + (i == 0 ? -0.08F : 0.08F) * right,
-                .rotation = glm::angleAxis(1.2F, right)};
-        scene::update_world_matrices(world_);
-    }
-
-    double draw_ms(const scene::Camera& camera, const gpu::Framebuffer& target) {
-        const Clock::time_point start = Clock::now();
-        renderer_.render(world_, camera, target);
-        glFinish();
-        return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-    }
-
-    render::Renderer& renderer() { return renderer_; }
-    ecs::World& world() { return world_; }
-    const render::ProbeVolumes& volumes() const { return volumes_; }
-
- private:
-    render::Renderer renderer_;
-    ecs::World world_;
-    render::SceneInstance instance_;
-    render::ProbeVolumes volumes_;
-    std::vector<ecs::Entity> carried_;
-};
 
 /// The box about a point of the path.
 std::size_t box_at(const render::ProbeVolumes& volumes, float x) {
@@ -162,7 +58,7 @@ struct Walk {
 };
 
 /// `white`: the radiance that is shown as white.
-Walk walk_through(Rooms& rooms, const Options& options, float door_m, double white) {
+Walk walk_through(Rooms& rooms, const WalkOptions& options, float door_m, double white) {
     const gpu::Framebuffer target(
         {.width = options.size.x, .height = options.size.y, .colours = {gpu::Format::RGBA32F}, .depth = true});
     const auto display = [&](float value) {
@@ -208,7 +104,7 @@ Walk walk_through(Rooms& rooms, const Options& options, float door_m, double whi
     return walk;
 }
 
-void walk_through_doors(const Options& options) {
+void walk_through_doors(const WalkOptions& options) {
     std::printf("%d frames through each door, %d × %d; steps of a display value in 1/255\n", options.frames,
                 options.size.x, options.size.y);
     std::printf("%6s %-10s %8s %15s %8s %9s %8s %8s\n", "door", "probes", "largest", "carried: median", "largest",
@@ -251,11 +147,9 @@ struct SeenPoint {
 };
 
 /// At most `kPoints` points per stop, each of another grating without a groove texture.
-std::vector<SeenPoint> seen_points(Rooms& rooms, const Options& options) {
+std::vector<SeenPoint> seen_points(Rooms& rooms, const WalkOptions& options) {
     constexpr glm::ivec2 kTexels(64, 36);
     constexpr std::size_t kPoints = 4;
-    constexpr std::array kForward = {glm::vec3(1, -0.15F, 0), glm::vec3(0, -0.15F, -1), glm::vec3(-1, -0.15F, 0),
-                                     glm::vec3(0, -0.15F, 1)};
     std::vector<demo::PlacedMesh> meshes;
     std::vector<ecs::Entity> entities;
     rooms.world().view<render::MeshInstance, scene::WorldMatrix>().each(
@@ -266,9 +160,7 @@ std::vector<SeenPoint> seen_points(Rooms& rooms, const Options& options) {
     std::vector<SeenPoint> points;
     std::mt19937 random(7);
     for (int stop = 0; stop < options.stops; ++stop) {
-        const float x =
-            kBegin_m + (kEnd_m - kBegin_m) * (static_cast<float>(stop) + 0.5F) / static_cast<float>(options.stops);
-        const scene::Camera camera = camera_at(x, kForward[static_cast<std::size_t>(stop) % kForward.size()]);
+        const scene::Camera camera = camera_at_stop(stop, options.stops);
         auto texels = demo::visible_points(camera, kTexels, meshes);
         std::ranges::shuffle(texels, random);
         std::vector<std::size_t> taken;
@@ -336,7 +228,7 @@ struct Errors {
     }
 };
 
-void compare_at_stops(const Options& options) {
+void compare_at_stops(const WalkOptions& options) {
     Rooms rooms(options, std::nullopt);
     std::vector<SeenPoint> points = seen_points(rooms, options);
     rooms.remove_boxes();
@@ -377,7 +269,7 @@ void compare_at_stops(const Options& options) {
 }
 
 int run(int argc, char** argv) {
-    Options options;
+    WalkOptions options;
     options.scene =
         std::filesystem::read_symlink("/proc/self/exe").parent_path().parent_path() / "cooked" / "rooms.scene";
     CLI::App app{"A walk through the three rooms, under a probe for each box and under one.", "rowland-walk-benchmark"};
@@ -390,12 +282,25 @@ int run(int argc, char** argv) {
                    "Stops of the walk at which gratings are compared with the reference; 0: none")
         ->check(CLI::Range(0, 10000))
         ->capture_default_str();
+    int budget_stops = 0;
+    std::optional<std::filesystem::path> json;
+    app.add_option("--budget-stops", budget_stops,
+                   "Stops of the walk at which frames are drawn within budgets; 0: none")
+        ->check(CLI::Range(0, 1000))
+        ->capture_default_str();
+    app.add_option("--json", json, "Write what the budgets gave to a file")->type_name("FILE");
     app.add_option("--width", options.size.x, "Width in pixels")->check(CLI::Range(16, 8192))->capture_default_str();
     app.add_option("--height", options.size.y, "Height in pixels")->check(CLI::Range(16, 8192))->capture_default_str();
     if (!parse_command_line(app, argc, argv)) return 0;
     if (!std::filesystem::exists(options.scene))
         fail_system(options.scene.string(), "no such file", "build it: ./rowland rooms --help");
+    if (json) check_outputs(std::array{options.scene}, std::array{Output{"--json", *json, ".json"}});
     const platform::HeadlessContext context;
+    if (budget_stops > 0) {
+        const std::vector<BudgetFrames> budgets = draw_under_budgets(options, budget_stops);
+        print_budgets(budgets);
+        if (json) write_file_atomic(*json, budgets_json(budgets).dump(1) + '\n');
+    }
     if (options.frames > 0) walk_through_doors(options);
     if (options.stops > 0) compare_at_stops(options);
     return 0;

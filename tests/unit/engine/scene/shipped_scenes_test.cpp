@@ -19,7 +19,7 @@ ImportedScene shipped(const std::string& name, const std::vector<std::string>& h
 }
 
 TEST(ShippedScene, LoadsWithoutWarnings) {
-    for (const char* name : {"cabinet", "films", "lattices", "rooms", "sheets"}) {
+    for (const char* name : {"bench", "cabinet", "films", "lattices", "rooms", "sheets"}) {
         SCOPED_TRACE(name);
         const ImportedScene scene = shipped(name);
         EXPECT_TRUE(test::is_sane(scene));
