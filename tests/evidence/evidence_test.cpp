@@ -37,6 +37,17 @@ TEST(Evidence, PresetsFollowTheManufacturersCurves) {
     }
 }
 
+TEST(Evidence, PitSequencesAreDrawnAndAreNoSinglePits) {
+    ROWLAND_TEST_DATA(ennis, "probes/ennis_probulator.hdr");
+    const Json figures = pit_sequence({.data = ennis.parent_path().parent_path()})["figures"];
+    for (const char* probe : {"venice sunset", "ennis"}) {
+        SCOPED_TRACE(probe);
+        EXPECT_LT(figures[std::string("pit_sequence.planar_error.") + probe].get<double>(), 0.015);
+        // The other lobe in its place is noticed.
+        EXPECT_GT(figures[std::string("pit_sequence.change.") + probe].get<double>(), 0.1);
+    }
+}
+
 TEST(Evidence, ReflectanceIsThatOfTheTablesIndices) {
     const IndexTable table{.metal = colour::Metal::Ag,
                            .author = "nobody",

@@ -77,11 +77,13 @@ struct MetalSpread {
 };
 
 Json metal_plot(const MetalSpread& spread) {
+    double least = 1.0;
     Json band = Json::array();
     Json ours = Json::array();
     for (double wavelength_nm = kFrom_nm; wavelength_nm <= kTo_nm; wavelength_nm += kEvery_nm) {
         const auto [low, high] = spread.range(wavelength_nm);
         band.push_back({wavelength_nm, low, high});
+        least = std::min({least, low, spread.ours(wavelength_nm)});
         ours.push_back({wavelength_nm, spread.ours(wavelength_nm)});
     }
     Json series = {{{"name", "all sources"}, {"kind", "band"}, {"points", band}},
@@ -93,10 +95,11 @@ Json metal_plot(const MetalSpread& spread) {
                 points.push_back({wavelength_nm, reflectance(*table, wavelength_nm)});
         series.push_back({{"name", table->author}, {"kind", "points"}, {"points", points}});
     }
-    return {{"caption", colour::metal_name(spread.metal)},
-            {"x", {{"label", "wavelength (nm)"}, {"from", kFrom_nm}, {"to", kTo_nm}}},
-            {"y", {{"label", "reflectance at normal incidence"}, {"from", 0.2}, {"to", 1.0}}},
-            {"series", series}};
+    return {
+        {"caption", colour::metal_name(spread.metal)},
+        {"x", {{"label", "wavelength (nm)"}, {"from", kFrom_nm}, {"to", kTo_nm}}},
+        {"y", {{"label", "reflectance at normal incidence"}, {"from", std::floor(10.0 * least) / 10.0}, {"to", 1.0}}},
+        {"series", series}};
 }
 
 }  // namespace
