@@ -361,7 +361,8 @@ void JsonReader::alternatives(const std::string& key, const std::function<void(J
 void JsonReader::alternatives(const std::vector<std::pair<std::string, std::function<void(JsonReader&)>>>& keys,
                               const std::function<void(JsonReader&)>& without) {
     if (!recorder_) {
-        const auto there = std::ranges::find_if(keys, [&](const auto& one) { return has(one.first); });
+        // Without std::ranges, which the web's library lacks.
+        const auto there = std::find_if(keys.begin(), keys.end(), [&](const auto& one) { return has(one.first); });
         return there != keys.end() ? there->second(*this) : without(*this);
     }
     const auto parts = recorder_->split(keys.size() + 1);
