@@ -52,6 +52,20 @@ diffraction::ShadingPoint sphere_frame(const glm::dvec3& eye, const glm::dvec3& 
     return {.view = -ray, .normal = normal, .grating = glm::normalize(glm::dvec3(normal.z, 0.0, -normal.x))};
 }
 
+/// Calls visit(pixel, ray) for the middle of each pixel: row · width + column, and the unit direction from the eye.
+template <typename Visit>
+void for_each_ray(const scene::Camera& camera, int width, int height, const Visit& visit) {
+    const glm::dmat4 to_world = glm::inverse(
+        glm::dmat4(camera.projection(static_cast<float>(width) / static_cast<float>(height)) * camera.view()));
+    for (int row = 0; row < height; ++row)
+        for (int column = 0; column < width; ++column) {
+            const glm::dvec4 far_point =
+                to_world * glm::dvec4(2.0 * (column + 0.5) / width - 1.0, 1.0 - 2.0 * (row + 0.5) / height, 1.0, 1.0);
+            visit(static_cast<std::size_t>(row * width + column),
+                  glm::normalize(glm::dvec3(far_point) / far_point.w - glm::dvec3(camera.eye)));
+        }
+}
+
 [[noreturn]] void fail(const NumberTable& table, std::size_t i, std::string found, std::string expected) {
     refuse_input(table.file, fmt::format("row {}", table.file_rows[i]), std::move(found), std::move(expected));
 }
@@ -100,32 +114,39 @@ scene::Camera far_camera() {
 }
 
 PictureFrames picture_frames(const scene::Camera& camera, int width, int height) {
-    const glm::dmat4 to_world = glm::inverse(
-        glm::dmat4(camera.projection(static_cast<float>(width) / static_cast<float>(height)) * camera.view()));
     const glm::dvec3 eye(camera.eye);
     std::vector<diffraction::ShadingPoint> disc;
     std::vector<diffraction::ShadingPoint> sphere;
     std::vector<std::size_t> disc_pixels;
     std::vector<std::size_t> sphere_pixels;
-    for (int row = 0; row < height; ++row)
-        for (int column = 0; column < width; ++column) {
-            const glm::dvec4 far_point =
-                to_world * glm::dvec4(2.0 * (column + 0.5) / width - 1.0, 1.0 - 2.0 * (row + 0.5) / height, 1.0, 1.0);
-            const glm::dvec3 ray = glm::normalize(glm::dvec3(far_point) / far_point.w - eye);
-            const auto on_sphere = hit_sphere(eye, ray);
-            const auto on_disc = hit_disc(eye, ray);
-            const auto pixel = static_cast<std::size_t>(row * width + column);
-            if (on_sphere && (!on_disc || *on_sphere < *on_disc)) {
-                sphere.push_back(sphere_frame(eye, ray, *on_sphere));
-                sphere_pixels.push_back(pixel);
-            } else if (on_disc) {
-                disc.push_back(disc_frame(eye, ray, *on_disc));
-                disc_pixels.push_back(pixel);
-            }
+    for_each_ray(camera, width, height, [&](std::size_t pixel, const glm::dvec3& ray) {
+        const auto on_sphere = hit_sphere(eye, ray);
+        const auto on_disc = hit_disc(eye, ray);
+        if (on_sphere && (!on_disc || *on_sphere < *on_disc)) {
+            sphere.push_back(sphere_frame(eye, ray, *on_sphere));
+            sphere_pixels.push_back(pixel);
+        } else if (on_disc) {
+            disc.push_back(disc_frame(eye, ray, *on_disc));
+            disc_pixels.push_back(pixel);
         }
+    });
     PictureFrames result{{.width = width, .height = height, .pixels = disc_pixels},
                          {.name = "picture", .surfaces = {disc, sphere}}};
     result.pixels.insert(result.pixels.end(), sphere_pixels.begin(), sphere_pixels.end());
+    return result;
+}
+
+PictureFrames disc_frames(const scene::Camera& camera, int width, int height) {
+    const glm::dvec3 eye(camera.eye);
+    diffraction::Surface disc;
+    PictureFrames result{{.width = width, .height = height, .pixels = {}}, {}};
+    for_each_ray(camera, width, height, [&](std::size_t pixel, const glm::dvec3& ray) {
+        const auto on_disc = hit_disc(eye, ray);
+        if (!on_disc) return;
+        disc.push_back(disc_frame(eye, ray, *on_disc));
+        result.pixels.push_back(pixel);
+    });
+    result.frames = {.name = "disc", .surfaces = {disc}};
     return result;
 }
 

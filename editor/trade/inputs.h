@@ -49,6 +49,8 @@ struct PictureFrames : diffraction::PictureLayout {
     FrameSet frames;  ///< "picture": the disc's points, then the sphere's
 };
 PictureFrames picture_frames(const scene::Camera& camera, int width, int height);
+/// The same of the disc alone: "disc".
+PictureFrames disc_frames(const scene::Camera& camera, int width, int height);
 
 /// Frames from CSV `vx,vy,vz,nx,ny,nz,gx,gy,gz` (world axes; lengths do not matter). Throws Error (input) naming the
 /// row for a frame without three directions.

@@ -65,7 +65,6 @@ double brightest(const std::vector<Texel>& descending, double solid_angle) {
 }
 
 constexpr std::size_t kDiscVertices = 25000;
-constexpr const char* kDataMark = "/*DATA*/";
 
 nlohmann::ordered_json representation_names() {
     nlohmann::ordered_json names;
@@ -308,14 +307,18 @@ nlohmann::ordered_json report_data(const SweepResults& results, const SweepInput
     return json;
 }
 
-std::string report_html(const nlohmann::ordered_json& data) {
-    std::string page(report_files().front().text);
+std::string page_with_data(std::string_view page, const nlohmann::ordered_json& data) {
+    constexpr std::string_view kMark = "/*DATA*/";
     std::string text = data.dump();
     // Nothing in the data may end the script element that holds it.
     for (std::size_t at = 0; (at = text.find('<', at)) != std::string::npos;) text.replace(at, 1, "\\u003c");
-    const std::size_t mark = page.find(kDataMark);
-    ROWLAND_CHECK(mark != std::string::npos, "the template has a mark for the data");
-    return page.replace(mark, std::string(kDataMark).size(), text);
+    const std::size_t mark = page.find(kMark);
+    ROWLAND_CHECK(mark != std::string_view::npos, "the template has a mark for the data");
+    return std::string(page).replace(mark, kMark.size(), text);
+}
+
+std::string report_html(const nlohmann::ordered_json& data) {
+    return page_with_data(report_files().front().text, data);
 }
 
 }  // namespace rowland::trade

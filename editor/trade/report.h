@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "editor/trade/film_methods.h"
@@ -80,6 +81,9 @@ struct ReportOrigin {
 nlohmann::ordered_json report_data(const SweepResults& results, const SweepInputs& inputs,
                                    const std::vector<DifferencePicture>& differences,
                                    const nlohmann::ordered_json& paper, const ReportOrigin& origin);
+
+/// A page of HTML that needs no other file: `page` with its mark /*DATA*/, in a script element, replaced by the data.
+std::string page_with_data(std::string_view page, const nlohmann::ordered_json& data);
 
 /// The report: one HTML file that needs no other.
 std::string report_html(const nlohmann::ordered_json& data);

@@ -31,7 +31,7 @@ struct WalkOptions {
     int face_size = 64;  ///< of the captured light
 };
 
-/// At eye height, at this place of the path.
+/// At eye height, so far along the path.
 scene::Camera camera_at(float x_m, const glm::vec3& forward);
 /// At a stop of `stops`, evenly along the path; the views of four stops turn once about.
 scene::Camera camera_at_stop(int stop, int stops);

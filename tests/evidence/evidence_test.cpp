@@ -5,7 +5,7 @@
 
 #include "tests/evidence/curves.h"
 #include "tests/evidence/metals.h"
-#include "tests/evidence/page.h"
+#include "tests/evidence/section.h"
 #include "tests/support/files.h"
 #include "tests/support/folder_test.h"
 #include "tests/support/program.h"

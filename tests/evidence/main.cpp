@@ -14,7 +14,7 @@
 #include "engine/core/file.h"
 #include "engine/core/log.h"
 #include "engine/core/program.h"
-#include "tests/evidence/page.h"
+#include "tests/evidence/section.h"
 
 namespace rowland::evidence {
 

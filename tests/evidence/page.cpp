@@ -1,9 +1,8 @@
-#include "tests/evidence/page.h"
-
 #include <span>
 
-#include "engine/core/check.h"
+#include "editor/trade/report.h"
 #include "engine/core/text.h"
+#include "tests/evidence/section.h"
 
 namespace rowland::evidence {
 
@@ -20,15 +19,8 @@ const std::vector<Section>& sections() {
     return list;
 }
 
-std::string page_html(const Json& sections) {
-    constexpr std::string_view kMark = "/*DATA*/";
-    std::string page(page_files().front().text);
-    std::string text = sections.dump();
-    // Nothing in the data may end the script element that holds it.
-    for (std::size_t at = 0; (at = text.find('<', at)) != std::string::npos;) text.replace(at, 1, "\\u003c");
-    const std::size_t mark = page.find(kMark);
-    ROWLAND_CHECK(mark != std::string::npos, "the template has a mark for the data");
-    return page.replace(mark, kMark.size(), text);
+std::string page_html(const Json& measured) {
+    return trade::page_with_data(page_files().front().text, measured);
 }
 
 }  // namespace rowland::evidence

@@ -57,14 +57,11 @@ diffraction::CookedMaterial planar(const nlohmann::json& lobe) {
     return cook(pressed_disc(lobe), "the disc", diffraction::parse_method("planar"));
 }
 
-/// The disc, larger in the picture than in that of errors, without the sphere: the map of a lobe serves flat surfaces.
+/// The disc, larger in the picture than in that of errors.
 trade::PictureFrames bare_disc() {
     scene::Camera camera = trade::far_camera();
     camera.vertical_field_of_view = 0.42F;
-    trade::PictureFrames frames = trade::picture_frames(camera, kPictureWidth, kPictureHeight);
-    frames.frames.surfaces.resize(1);
-    frames.pixels.resize(frames.frames.surfaces.front().size());
-    return frames;
+    return trade::disc_frames(camera, kPictureWidth, kPictureHeight);
 }
 
 /// Under one probe.

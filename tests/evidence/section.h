@@ -37,6 +37,9 @@ struct Section {
 /// The sections in the page's order.
 const std::vector<Section>& sections();
 
+/// The page: one HTML file that needs no other. `measured`: what sections returned, each with its "name".
+std::string page_html(const Json& measured);
+
 /// Efficiencies of ruled gratings: a manufacturer's curves, scalar theory, and Maxwell's equations.
 Json curves(const Inputs& inputs);
 /// Where the line of a disc lies and which wavelengths stand along it: drawn, and by the formula.

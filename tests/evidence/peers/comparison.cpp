@@ -27,8 +27,6 @@ namespace {
 constexpr int kWidth = 80;
 constexpr int kHeight = 60;
 constexpr int kLamps = 16;
-constexpr double kInnerRadius = 0.0235;  ///< metres
-constexpr double kOuterRadius = 0.058;
 constexpr double kLampDeviation = 0.25 * glm::pi<double>() / 180.0;
 
 /// All combinations of values of the four parameters.
@@ -210,26 +208,7 @@ trade::PictureFrames disc_picture() {
     camera.eye = {0.0F, 0.15F, 0.13F};
     camera.target = {0.0F, 0.0F, 0.007F};
     camera.vertical_field_of_view = 0.5F;
-    const glm::dmat4 to_world = glm::inverse(
-        glm::dmat4(camera.projection(static_cast<float>(kWidth) / static_cast<float>(kHeight)) * camera.view()));
-    const glm::dvec3 eye(camera.eye);
-    diffraction::Surface disc;
-    trade::PictureFrames result{{.width = kWidth, .height = kHeight, .pixels = {}}, {}};
-    for (int row = 0; row < kHeight; ++row)
-        for (int column = 0; column < kWidth; ++column) {
-            const glm::dvec4 far_point =
-                to_world * glm::dvec4(2.0 * (column + 0.5) / kWidth - 1.0, 1.0 - 2.0 * (row + 0.5) / kHeight, 1.0, 1.0);
-            const glm::dvec3 ray = glm::normalize(glm::dvec3(far_point) / far_point.w - eye);
-            if (ray.y >= 0.0) continue;
-            const glm::dvec3 at = eye - eye.y / ray.y * ray;
-            const double radius = std::hypot(at.x, at.z);
-            if (radius < kInnerRadius || radius > kOuterRadius) continue;
-            disc.push_back(
-                {.view = -ray, .normal = {0.0, 1.0, 0.0}, .grating = glm::normalize(glm::dvec3(at.x, 0.0, at.z))});
-            result.pixels.push_back(static_cast<std::size_t>(row * kWidth + column));
-        }
-    result.frames = {.name = "disc", .surfaces = {disc}};
-    return result;
+    return trade::disc_frames(camera, kWidth, kHeight);
 }
 
 lighting::KeyLight lamp() {
