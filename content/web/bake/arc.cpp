@@ -51,7 +51,7 @@ ROWLAND_EXPORT(arc_weights) Numbers* arc_weights(const Arc* arc) {
 }
 
 /// Raw SH of a probe's light without its key lights. `texels`: linear Rec.709, row 0 at the top; released here. `keys`:
-/// those of fit_key_lights() in light.cpp, `count` of them.
+/// those of fit_key_lights() in keys.cpp, `count` of them.
 ROWLAND_EXPORT(rest_sh)
 Numbers* rest_sh(glm::vec3* texels, int width, int height, const float* keys, int count, int bands) {
     image::Image image{width, height, std::vector<glm::vec3>(texels, texels + width * height)};

@@ -33,21 +33,6 @@ ROWLAND_EXPORT(use_key_lights) void use_key_lights(Probe* probe, const float* ke
     probe->light = lighting::light_samples(probe->image, probe->keys);
 }
 
-/// Key lights of an image, kKeyLightNumbers each. `texels`: as of read_probe(). Takes about a second.
-ROWLAND_EXPORT(fit_key_lights)
-Numbers* fit_key_lights(glm::vec3* texels, int width, int height, int count) {
-    image::Image image{width, height, std::vector<glm::vec3>(texels, texels + width * height)};
-    std::free(texels);
-    const lighting::ProbeImage probe(std::move(image), lighting::Mapping::Equirectangular);
-    auto* numbers = new Numbers;
-    for (const lighting::KeyLight& key : lighting::fit_key_lights(probe, count)) {
-        append(glm::vec3(key.direction), *numbers);
-        append(glm::vec3(key.flux), *numbers);
-        append(static_cast<float>(key.concentration), *numbers);
-    }
-    return numbers;
-}
-
 ROWLAND_EXPORT(release_probe) void release_probe(const Probe* probe) {
     delete probe;
 }

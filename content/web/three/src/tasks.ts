@@ -64,7 +64,7 @@ function table(width: number, height: number, depth: number, rgb: Float32Array):
     return { width, height, depth, ...packRgb(rgb) };
 }
 
-type ModuleName = "bake" | "arc" | "reference" | "solve";
+type ModuleName = "bake" | "keys" | "arc" | "reference" | "solve";
 export type Fetch = (name: ModuleName) => Promise<BufferSource>;
 
 /** The tasks of one worker. Materials, by number, and one probe are kept in the modules' memory. */
@@ -122,8 +122,8 @@ export class Tasks {
 
     /** Key lights for the brightest parts of an image. `probe`: of probeTexels(). Takes about a second. */
     async fitKeyLights(probe: Float32Array, count: number): Promise<Float32Array> {
-        const bake = await this.module("bake");
-        return bake.numbers("fit_key_lights", bake.putFloats(probe.subarray(2)), probe[0], probe[1], count);
+        const keys = await this.module("keys");
+        return keys.numbers("fit_key_lights", keys.putFloats(probe.subarray(2)), probe[0], probe[1], count);
     }
 
     /** Takes key lights out of the probe's light. */

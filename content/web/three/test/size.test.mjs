@@ -13,10 +13,11 @@ const bundled = (entry) => buildSync({ entryPoints: [packageFolder + entry], bun
 const built = existsSync(packageFolder + "dist/bake.wasm");
 
 test("the package stays as small as it is", { skip: built ? false : "needs dist: npm run build" }, (t) => {
-    const sizes = { script: zipped(bundled("dist/index.js")), worker: zipped(bundled("dist/worker.js")),
-        bake: zipped(readFileSync(packageFolder + "dist/bake.wasm")), arc: zipped(readFileSync(packageFolder + "dist/arc.wasm")),
-        solve: zipped(readFileSync(packageFolder + "dist/solve.wasm")) };
+    const module = (name) => zipped(readFileSync(`${packageFolder}dist/${name}.wasm`));
+    const sizes = { script: zipped(bundled("dist/index.js")), worker: zipped(bundled("dist/worker.js")), bake: module("bake"),
+        keys: module("keys"), arc: module("arc"), solve: module("solve") };
     t.diagnostic(JSON.stringify(sizes));
-    // 13 kB are tables of colours. arc.wasm is loaded with the first curved mesh, solve.wasm for rigorous theory.
-    assert.ok(sizes.script + sizes.worker + sizes.bake < 111000 + 13000 && sizes.arc < 131000 && sizes.solve < 91000, JSON.stringify(sizes));
+    // keys.wasm is loaded after the first picture, arc.wasm with the first curved mesh, solve.wasm for rigorous theory.
+    assert.ok(sizes.script + sizes.worker + sizes.bake < 110000 && sizes.keys < 30000 && sizes.arc < 131000 && sizes.solve < 91000,
+        JSON.stringify(sizes));
 });
