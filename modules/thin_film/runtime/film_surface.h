@@ -2,7 +2,6 @@
 
 #include <cstddef>
 #include <glm/mat3x3.hpp>
-#include <glm/vec4.hpp>
 #include <map>
 #include <memory>
 #include <set>
@@ -16,6 +15,7 @@
 #include "modules/thin_film/asset/film_material.h"
 #include "modules/thin_film/asset/gltf_iridescence.h"
 #include "modules/thin_film/bake/film_table.h"
+#include "modules/thin_film/runtime/film_texels.h"
 
 namespace rowland::thin_film {
 
@@ -38,8 +38,7 @@ class GpuFilm {
  private:
     gpu::Texture texture_;
     std::vector<gpu::Define> defines_;
-    glm::vec4 path_;
-    glm::vec4 axes_;
+    FilmAxes axes_;
     std::string illuminant_;
 };
 

@@ -1,6 +1,6 @@
 import { DataUtils, FloatType, HalfFloatType, type DataTexture, type Texture } from "three";
 import { TaskWorker } from "./task_worker.js";
-import type { ArcTables, Detail, MaterialTables, Pitches, PlaneMap, Source } from "./tasks.js";
+import type { ArcTables, Detail, FilmSource, FilmTable, MaterialTables, Pitches, PlaneMap, Source } from "./tasks.js";
 
 /** RGB texels of a texture that three's HDR or EXR loader gives, row 0 at the top. */
 export function texelsOf(texture: Texture): { texels: Float32Array; width: number; height: number } {
@@ -148,6 +148,11 @@ export class Rowland {
     /** @internal */
     plane(id: number, normal: number[], flatLobe: boolean, pitches: Pitches | null, detail: Detail): Promise<PlaneMap> {
         return this.worker("maps").run("plane", [id, normal, flatLobe, pitches, detail]);
+    }
+
+    /** @internal */
+    filmTable(film: FilmSource): Promise<FilmTable> {
+        return this.worker("tables").run("film", [film]);
     }
 
     /** @internal */

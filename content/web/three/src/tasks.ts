@@ -41,6 +41,22 @@ export interface ArcTables {
     readonly pitch: number[]; // scale and bias of a table over pitches
 }
 
+/** A film for a table. */
+export interface FilmSource {
+    readonly json: string; // of a film material file
+    readonly thinnest_nm: number; // a texture varies the thickness from here to the film's; -1: none does
+    readonly smoothest: number; // and so the roughness
+    readonly base: readonly number[]; // reflectance at normal incidence in place of the file's base; [-1, -1, -1]: the file's
+}
+
+export interface FilmTable {
+    readonly path: [number, number, number, number]; // film_path of film_lookup.glsl
+    readonly axes: [number, number, number, number];
+    readonly byRoughness: boolean; // rows are roughnesses
+    readonly error: number; // the largest, of the largest reflectance at that angle
+    readonly table: Table;
+}
+
 /** Map sizes: a coarse map is shown first, then the full one. */
 export type Detail = "coarse" | "full";
 
@@ -64,7 +80,7 @@ function table(width: number, height: number, depth: number, rgb: Float32Array):
     return { width, height, depth, ...packRgb(rgb) };
 }
 
-type ModuleName = "bake" | "keys" | "arc" | "reference" | "solve";
+type ModuleName = "bake" | "keys" | "arc" | "reference" | "solve" | "film";
 export type Fetch = (name: ModuleName) => Promise<BufferSource>;
 
 /** The tasks of one worker. Materials, by number, and one probe are kept in the modules' memory. */
@@ -221,6 +237,22 @@ export class Tasks {
         const products = module.numbers("arc_products", arc, ...inputs, normals.length / 3);
         for (const input of inputs) module.call("give_back", input);
         return products;
+    }
+
+    async film({ json, thinnest_nm, smoothest, base }: FilmSource): Promise<FilmTable> {
+        const module = await this.module("film");
+        const text = new TextEncoder().encode(json);
+        const address = module.put(text);
+        const numbers = module.numbers("film_table", address, text.length, thinnest_nm, smoothest, ...base);
+        module.call("give_back", address);
+        const [width, height] = numbers.subarray(12);
+        return {
+            path: [...numbers.subarray(0, 4)] as FilmTable["path"],
+            axes: [...numbers.subarray(4, 8)] as FilmTable["axes"],
+            byRoughness: numbers[8] === 1,
+            error: numbers[11],
+            table: { width, height, depth: 1, texels: Uint16Array.from(numbers.subarray(14), toHalf), scale: 1 },
+        };
     }
 
     /** Sets the light of reference(). `probe`: of probeTexels(). */

@@ -15,9 +15,9 @@ function filtered<Kind extends Texture>(texture: Kind): Kind {
 
 const texels = (table: Table) => table.texels as Uint16Array<ArrayBuffer>;
 
-export function planeTexture(table: Table): DataTexture {
+export function planeTexture(table: Table, repeated = true): DataTexture {
     const texture = filtered(new DataTexture(texels(table), table.width, table.height));
-    texture.wrapS = RepeatWrapping;
+    texture.wrapS = repeated ? RepeatWrapping : ClampToEdgeWrapping;
     return texture;
 }
 

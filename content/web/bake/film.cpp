@@ -1,0 +1,41 @@
+// Thin films: the table of modules/thin_film/bake/film_table.h.
+#include <glm/matrix.hpp>
+#include <string_view>
+
+#include "content/web/bake/exports.h"
+#include "engine/colour/colour_space.h"
+#include "modules/thin_film/asset/film_material.h"
+#include "modules/thin_film/runtime/film_texels.h"
+
+namespace rowland::web {
+
+/// Of a film material file's JSON, as JSON.stringify() gives it: film_path and film_axes of film_lookup.glsl, whether
+/// rows are roughnesses, the thickness of the outermost layer, the roughness, the table's largest error, width and
+/// height of the texture; then its texels, RGBA. From `thinnest_nm` to the file's thickness, and from `smoothest` to
+/// its roughness, a texture varies them; one of the ranges must be empty. What is negative is not varied. `red`,
+/// `green`, `blue`: the base's reflectance at normal incidence in place of the file's base, unless `red` is negative.
+ROWLAND_EXPORT(film_table)
+Numbers* film_table(const char* json, std::size_t size, double thinnest_nm, double smoothest, double red, double green,
+                    double blue) {
+    using namespace thin_film;
+    FilmMaterial material = parse_film_material(nlohmann::json::parse(std::string_view(json, size)), "material");
+    if (thinnest_nm >= 0.0) material.range.thinnest_nm = thinnest_nm;
+    if (smoothest >= 0.0) material.range.smoothest = smoothest;
+    if (red >= 0.0) material.film.base = NormalReflectance{.rgb = {red, green, blue}};
+    const FilmTable table = bake_film(material);
+    const FilmAxes axes = film_axes(table);
+    const int slices = 3 * table.layers;
+    const bool line = is_line(table);
+    auto* numbers = new Numbers;
+    append(axes.path, *numbers);
+    append(axes.axes, *numbers);
+    append(glm::vec4(has_roughnesses(table) ? 1 : 0, material.range.thickest_nm, material.range.roughest,
+                     table.error.largest),
+           *numbers);
+    append(line ? glm::vec2(slices * table.columns, 1) : glm::vec2(table.columns, table.rows * slices), *numbers);
+    for (const glm::vec4& texel : working_columns(table, glm::inverse(colour::rec709_to_xyz())))
+        append(texel, *numbers);
+    return numbers;
+}
+
+}  // namespace rowland::web
