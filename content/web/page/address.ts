@@ -10,7 +10,7 @@ export interface Settings {
     material?: object; // in place of the sample's
 }
 
-export const SCENE_NAMES = ["cabinet", "samples"];
+export const SCENE_NAMES = ["cabinet", "samples", "films"];
 const REPRESENTATIONS = ["planar", "arc", "direct"];
 
 function choice(params: URLSearchParams, key: string, names: string[]): number | undefined {

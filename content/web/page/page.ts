@@ -10,7 +10,7 @@ import { Frames } from "./frames.js";
 import { PixelComparer } from "./pixel.js";
 import { ReferenceView } from "./reference_view.js";
 import { numberAt, slidersOf, withNumber } from "./samples.js";
-import { cabinet, hasReference, materialsOf, Rest, samples, type GratingMesh, type Piece, type Stage } from "./stage.js";
+import { cabinet, films, hasReference, materialsOf, Rest, samples, type Piece, type Stage } from "./stage.js";
 
 const element = <Kind extends HTMLElement>(id: string) => document.getElementById(id) as Kind;
 const message = element("message");
@@ -145,7 +145,8 @@ function showSample(index: number): void {
             rebake(piece);
         })));
     const price = materialsOf(piece)[0].price;
-    element("price").textContent = `Price: ${price.map} look-up${price.map === 1 ? "" : "s"} a pixel for the environment, 39 for each bright light in reach.`;
+    const lights = "film" in materialsOf(piece)[0] ? "3 for each of the lamp's highlights" : "39 for each bright light in reach";
+    element("price").textContent = `Price: ${price.map} look-up${price.map === 1 ? "" : "s"} a pixel for the environment, ${lights}.`;
 }
 sample.addEventListener("change", () => {
     showSample(sample.selectedIndex);
@@ -177,7 +178,7 @@ bind("exposure", (value) => (renderer.toneMappingExposure = 2 ** value));
 let others = new Rest(stage.objects);
 referenceShown.addEventListener("change", () => {
     const on = referenceShown.checked;
-    for (const material of stage.pieces.flatMap(materialsOf)) material.diffractionOnly = on;
+    for (const material of stage.pieces.flatMap(materialsOf)) if ("diffractionOnly" in material) material.diffractionOnly = on;
     others.show(on);
     lamp.visible = !on;
     scene.background = on ? new Color(0) : environment ?? null;
@@ -267,7 +268,7 @@ function compareAfter(event: PointerEvent, milliseconds: number): void {
     clearTimeout(resting);
     resting = window.setTimeout(async () => {
         const { x, y, hit } = under(event);
-        if (!hit || !(hit.object as GratingMesh).material.isGratingMaterial || rowland.lightVersion === 0) return;
+        if (!hit || !("grating" in hit.object.material) || rowland.lightVersion === 0) return;
         if (!hasReference(hit.object)) {
             element("pixel").textContent = "No error of this pixel: its grooves are a texture's, and vary within it.";
             return;
@@ -378,7 +379,7 @@ scene.background = new Color(0x101114);
 resize();
 mark("script");
 showBuiltIn(wanted.light).catch(report); // while the cabinet is fetched
-stage = wanted.scene === SAMPLES_SCENE ? await samples(rowland, wanted) : await cabinet(rowland);
+stage = await [cabinet, samples, films][wanted.scene](rowland, wanted);
 loaded = true;
 mark("model");
 scene.add(stage.objects);

@@ -70,6 +70,8 @@ const SLIDERS: Slider[] = [
     { label: "Depth, nm", path: ["grating", "profile", "depth_nm"], from: 10, to: 600, step: 1 },
     { label: "Duty", path: ["grating", "profile", "duty"], from: 0.05, to: 0.95, step: 0.01 },
     { label: "Slit, nm", path: ["grating", "profile", "width_nm"], from: 50, to: 2000, step: 10 },
+    { label: "Thickness, nm", path: ["film", "thickness_nm"], from: 0, to: 1200, step: 5 },
+    { label: "Film's index", path: ["film", "ior"], from: 1, to: 3, step: 0.01 },
     { label: "Cover's index", path: ["cover", "ior"], from: 1, to: 2.5, step: 0.01 },
 ];
 

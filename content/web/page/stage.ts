@@ -1,22 +1,23 @@
 import {
-    Color, Group, Mesh, MeshBasicMaterial, MeshStandardMaterial, PlaneGeometry, Vector3, type BufferGeometry,
+    Box3, Color, Group, Mesh, MeshBasicMaterial, MeshStandardMaterial, PlaneGeometry, Vector3, type BufferGeometry,
     type Light, type Material, type Object3D,
 } from "three";
 import { DRACOLoader } from "three/examples/jsm/loaders/DRACOLoader.js";
 import { GLTFLoader } from "three/examples/jsm/loaders/GLTFLoader.js";
-import { GratingExtension, GratingMaterial, type Rowland } from "@rowland/three";
+import { FilmExtension, FilmMaterial, GratingExtension, GratingMaterial, type Rowland } from "@rowland/three";
 import type { Settings } from "./address.js";
 import { builtInEfficiencies, SAMPLES } from "./samples.js";
 
-export type GratingMesh = Mesh<BufferGeometry, GratingMaterial>;
+type ShownMaterial = GratingMaterial | FilmMaterial;
+type ShownMesh = Mesh<BufferGeometry, ShownMaterial>;
 
-/** A thing with a grating. */
+/** A thing with a grating or a film. */
 export interface Piece {
     name: string;
     /** What a hand turns, about its y axis. */
     handle: Object3D;
-    meshes: GratingMesh[];
-    /** Its grating before a slider has moved. */
+    meshes: ShownMesh[];
+    /** Its grating or film before a slider has moved. */
     given: object;
     /** The same in the present. */
     grating: object;
@@ -59,27 +60,42 @@ function handleOf(mesh: Object3D): Object3D {
     return handle;
 }
 
-/** The demo's cabinet. */
-export async function cabinet(rowland: Rowland): Promise<Stage> {
+/** A scene of the demo, and its pieces: each handle with what lies on it. */
+async function loaded(file: string, rowland: Rowland): Promise<{ scene: Object3D; pieces: Piece[] }> {
     const draco = new DRACOLoader().setDecoderPath("draco/").setWorkerLimit(1);
-    const loader = new GLTFLoader().setDRACOLoader(draco).register((parser) => new GratingExtension(parser, rowland));
-    const { scene } = await loader.loadAsync("cabinet.glb");
+    const loader = new GLTFLoader().setDRACOLoader(draco).register((parser) => new GratingExtension(parser, rowland))
+        .register((parser) => new FilmExtension(parser, rowland));
+    const { scene } = await loader.loadAsync(file);
     draco.dispose();
     const byHandle = new Map<Object3D, Piece>();
     scene.traverse((object) => {
         if ((object as Light).isLight) object.visible = false; // the panel has one
-        const mesh = object as GratingMesh;
-        if (!mesh.isMesh || !mesh.material.isGratingMaterial) return;
+        const mesh = object as ShownMesh;
+        const material = mesh.material as Partial<GratingMaterial & FilmMaterial> | undefined;
+        const given = material?.grating ?? material?.film;
+        if (!mesh.isMesh || !given) return;
         const handle = handleOf(mesh);
         const piece = byHandle.get(handle);
-        const grating = mesh.material.grating!;
         if (piece) piece.meshes.push(mesh);
-        else byHandle.set(handle, { name: handle.name.replaceAll("_", " "), handle, meshes: [mesh], given: grating, grating });
+        else byHandle.set(handle, { name: handle.name.replaceAll("_", " "), handle, meshes: [mesh], given, grating: given });
     });
-    return {
-        objects: scene, pieces: [...byHandle.values()], eye: new Vector3(0.02, 1.36, 0.98), target: new Vector3(0.02, 0.97, -0.03),
-        nearest: 0.15, farthest: 3,
-    };
+    return { scene, pieces: [...byHandle.values()] };
+}
+
+/** The demo's cabinet. */
+export async function cabinet(rowland: Rowland): Promise<Stage> {
+    const { scene, pieces } = await loaded("cabinet.glb", rowland);
+    return { objects: scene, pieces, eye: new Vector3(0.02, 1.36, 0.98), target: new Vector3(0.02, 0.97, -0.03), nearest: 0.15, farthest: 3 };
+}
+
+/** The demo's films: a bubble, an anodised ring, lenses and oil. */
+export async function films(rowland: Rowland): Promise<Stage> {
+    const { scene, pieces } = await loaded("films.glb", rowland);
+    const box = new Box3().makeEmpty();
+    for (const { handle } of pieces) box.expandByObject(handle);
+    const target = box.getCenter(new Vector3());
+    const eye = target.clone().addScaledVector(new Vector3(0, 0.45, 1), 1.1 * box.getSize(new Vector3()).length());
+    return { objects: scene, pieces, eye, target, nearest: 0.1, farthest: 3 };
 }
 
 /** What has no ground truth: black while that is shown. */

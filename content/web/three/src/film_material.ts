@@ -110,6 +110,16 @@ export class FilmMaterial extends MeshPhysicalMaterial {
         this.rowland!.onUpdate();
     }
 
+    /** Whether the picture has the film's table. */
+    get lit(): boolean {
+        return this.tableError !== undefined;
+    }
+
+    /** Texture look-ups per pixel for the light of the environment, and for each light. */
+    get price(): { map: number } {
+        return { map: 3 };
+    }
+
     override dispose(): void {
         (this.uniforms.film_table?.value as Texture | undefined)?.dispose();
         super.dispose();
