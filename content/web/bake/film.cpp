@@ -12,7 +12,7 @@ namespace rowland::web {
 /// Of a film material file's JSON, as JSON.stringify() gives it: film_path and film_axes of film_lookup.glsl, whether
 /// rows are roughnesses, the thickness of the outermost layer, the roughness, the table's largest error, width and
 /// height of the texture; then its texels, RGBA. From `thinnest_nm` to the file's thickness, and from `smoothest` to
-/// its roughness, a texture varies them; one of the ranges must be empty. What is negative is not varied. `red`,
+/// its roughness, a texture varies them; one of the ranges must be empty. A negative limit: no texture does. `red`,
 /// `green`, `blue`: the base's reflectance at normal incidence in place of the file's base, unless `red` is negative.
 ROWLAND_EXPORT(film_table)
 Numbers* film_table(const char* json, std::size_t size, double thinnest_nm, double smoothest, double red, double green,
