@@ -1,4 +1,4 @@
-import { Extension, type GLTF, type ReaderContext, type WriterContext } from "@gltf-transform/core";
+import { Extension, PropertyType, type GLTF, type ReaderContext, type WriterContext } from "@gltf-transform/core";
 import { Diffraction, NAME } from "./diffraction.js";
 import type { Members } from "./members.js";
 
@@ -13,12 +13,15 @@ type Def = Members & GLTF.IProperty & { grooveRotation?: number; grooveTexture?:
 export class RowlandMaterialsDiffraction extends Extension {
     static readonly EXTENSION_NAME: typeof NAME = NAME;
     readonly extensionName: typeof NAME = NAME;
+    // Materials are there before meshes are. KHR_texture_transform, whose turn is after these, finds the grooves' texture.
+    readonly prereadTypes = [PropertyType.MESH];
+    readonly prewriteTypes = [PropertyType.MESH];
 
     createDiffraction(): Diffraction {
         return new Diffraction(this.document.getGraph());
     }
 
-    read(context: ReaderContext): this {
+    preread(context: ReaderContext): this {
         const { materials = [], textures = [] } = context.jsonDoc.json;
         materials.forEach(({ extensions }, index) => {
             const def = extensions?.[NAME] as Def | undefined;
@@ -42,7 +45,7 @@ export class RowlandMaterialsDiffraction extends Extension {
         context.setTextureInfo(diffraction.getGrooveTextureInfo()!, def); // KHR_texture_transform reads its part of it
     }
 
-    write(context: WriterContext): this {
+    prewrite(context: WriterContext): this {
         for (const material of this.document.getRoot().listMaterials()) {
             const diffraction = material.getExtension<Diffraction>(NAME);
             if (!diffraction) continue;
@@ -58,6 +61,13 @@ export class RowlandMaterialsDiffraction extends Extension {
             const materialDef = context.jsonDoc.json.materials![context.materialIndexMap.get(material)!];
             materialDef.extensions = { ...materialDef.extensions, [NAME]: def };
         }
+        return this;
+    }
+
+    read(): this {
+        return this;
+    }
+    write(): this {
         return this;
     }
 }
