@@ -65,7 +65,7 @@ export class Rowland {
     private readonly materials = new Set<() => void>();
 
     constructor(private readonly startWorker = () => new Worker(new URL("./worker.js", import.meta.url), { type: "module" })) {
-        this.worker("maps"); // while the page loads its light
+        if (typeof Worker !== "undefined") this.worker("maps"); // while the page loads its light; not on a server
     }
 
     private worker(work: Work): TaskWorker {
