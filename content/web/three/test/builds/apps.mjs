@@ -1,7 +1,7 @@
 // The README's page as apps: the package as npm packs it, and what each bundler makes of the page.
 import { execFileSync } from "node:child_process";
-import { cpSync, mkdirSync, readFileSync, symlinkSync, writeFileSync } from "node:fs";
-import { join } from "node:path";
+import { cpSync, mkdirSync, readFileSync, rmSync, symlinkSync, writeFileSync } from "node:fs";
+import { basename, join } from "node:path";
 import { packageFolder, resultOf } from "../browser.mjs";
 
 /** Packs the package: the path of the file. */
@@ -11,14 +11,19 @@ export function pack(folder) {
     return join(folder, filename);
 }
 
-/** A folder with the packed package, and three and its types as they lie beside the package: no network is needed. */
+/** Lays the packed package into the node_modules of a folder: where it lies. */
 export function unpack(file, folder) {
     const into = join(folder, "node_modules/@rowland/three");
+    rmSync(into, { recursive: true, force: true });
     mkdirSync(into, { recursive: true });
     execFileSync("tar", ["-xzf", file, "--strip-components=1", "-C", into]);
-    mkdirSync(join(folder, "node_modules/@types"));
-    for (const name of ["three", "@types/three"]) symlinkSync(packageFolder + "node_modules/" + name, join(folder, "node_modules", name));
     return into;
+}
+
+/** Puts the three and its types that lie beside the package into a folder: no network is needed. */
+export function linkThree(folder) {
+    mkdirSync(join(folder, "node_modules/@types"), { recursive: true });
+    for (const name of ["three", "@types/three"]) symlinkSync(packageFolder + "node_modules/" + name, join(folder, "node_modules", name));
 }
 
 /** The page of a script that a bundler has written. */
@@ -36,27 +41,39 @@ export function example(folder) {
     cpSync(packageFolder + "examples/disc.js", join(folder, "disc.js"));
 }
 
-/** What a page without a bundler needs; content/web/three/examples/disc.html beside its node_modules. */
-export function withoutBundler(folder) {
-    example(join(folder, "plain"));
-    cpSync(packageFolder + "examples/disc.html", join(folder, "plain/index.html"));
+/** A page without a bundler: its path in `folder`, the node_modules beside it. `three`: the name that it lies there by. */
+export function withoutBundler(folder, three = "three") {
+    example(join(folder, `plain_${three}`));
+    const text = readFileSync(packageFolder + "examples/disc.html", "utf8").replaceAll("/node_modules/three/", `/node_modules/${three}/`);
+    writeFileSync(join(folder, `plain_${three}/index.html`), text);
+    return `plain_${three}/index.html`;
 }
 
+const DRIVERS = ["picture_driver.js", "builds/frame_driver.js"].map((name) => packageFolder + "test/" + name);
+
+/** A page's text with the drivers before its own scripts. `tag`: of the path of one. */
+export function watched(text, tag) {
+    const at = Math.max(text.search(/<script/), 0);
+    return text.slice(0, at) + DRIVERS.map(tag).join("") + text.slice(at);
+}
+
+/** For pages that are served from elsewhere. */
+export const inline = (driver) => `<script>${readFileSync(driver, "utf8")}</script>\n`;
+
 /**
- * Opens pages of `folder` one after the other, as small frames of one page: their final pictures and errors. `pages`: paths,
- * each of an index.html; `headers`: of a path.
+ * Opens pages one after the other, as small frames of one page: their final pictures and errors, by the name of each.
+ * `pages`: paths in `folder`, or addresses of watched() pages; `headers`: of a path.
  */
-export async function pictures(folder, pages, headers, seconds) {
-    const drivers = ["picture_driver.js", "builds/frame_driver.js"];
+export async function pictures(folder, pages, { headers, seconds = 240 } = {}) {
     const files = { "/frames.html": packageFolder + "test/builds/frames.html" };
-    for (const name of drivers) files["/drivers/" + name] = packageFolder + "test/" + name;
-    const tags = drivers.map((name) => `<script src="/drivers/${name}"></script>\n`).join("");
-    for (const path of pages) {
+    for (const driver of DRIVERS) files["/drivers/" + basename(driver)] = driver;
+    const sources = {};
+    for (const [name, path] of Object.entries(pages)) {
+        sources[name] = path.startsWith("http") ? path : "/" + path;
+        if (path.startsWith("http")) continue;
+        files["/" + path] = join(folder, path + ".watched.html");
         const text = readFileSync(join(folder, path), "utf8");
-        const at = Math.max(text.search(/<script/), 0); // before all of the app's
-        const watched = join(folder, path + ".watched.html");
-        writeFileSync(watched, text.slice(0, at) + tags + text.slice(at));
-        files["/" + path] = watched;
+        writeFileSync(files["/" + path], watched(text, (driver) => `<script src="/drivers/${basename(driver)}"></script>\n`));
     }
-    return resultOf("frames.html", pages.map((path) => "/" + path), { folder, files, headers, seconds });
+    return resultOf("frames.html", sources, { folder, files, headers, seconds });
 }
