@@ -1,4 +1,6 @@
 import assert from "node:assert/strict";
+import { execFileSync } from "node:child_process";
+import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { basename } from "node:path";
 import test from "node:test";
 import { Document } from "@gltf-transform/core";
@@ -114,4 +116,18 @@ test("a texture without an image is refused", async () => {
     const source = await io.readAsJSON(samples.find((one) => one.endsWith("foil.glb")));
     source.json.materials[0].extensions[NAME].grooveTexture.index = 7;
     await assert.rejects(io.readJSON(source), /grooveTexture\.index 7/);
+});
+
+test("the README's lines run", async () => {
+    const [, lines] = /```js\n(.*?)```/s.exec(readFileSync(new URL("../README.md", import.meta.url), "utf8"));
+    const folder = mkdtempSync(new URL("../readme-", import.meta.url).pathname); // within the package, which its lines import
+    try {
+        writeFileSync(folder + "/readme.mjs", lines.replace("scene.glb", samples.find((path) => path.endsWith("foil.glb"))));
+        execFileSync(process.execPath, ["readme.mjs"], { cwd: folder, stdio: ["ignore", "ignore", "pipe"] });
+        const before = gratings(await io.readAsJSON(samples.find((path) => path.endsWith("foil.glb")))).foil;
+        const after = gratings(await io.readAsJSON(folder + "/smaller.glb")).foil;
+        assert.deepEqual(after, { ...before, cover: { ior: 1.49 }, grooveRotation: Math.PI / 2 });
+    } finally {
+        rmSync(folder, { recursive: true });
+    }
 });

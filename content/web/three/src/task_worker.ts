@@ -14,7 +14,7 @@ export class TaskWorker {
             if (!this.busy) setTimeout(() => this.busy || onIdle());
         };
         worker.onerror = (event) => {
-            const error = new Error(event.message || "@rowland/three: worker.js was not found; its page, \"In builds\", says what bundlers need");
+            const error = new Error(event.message || "@rowland/three: worker.js did not start; the README, \"In builds\", says what bundlers and policies need");
             if (!event.message) this.failed = error;
             for (const waiting of this.waiting.values()) waiting.reject(error);
             this.waiting.clear();

@@ -109,7 +109,7 @@ test("the packed package", { skip: missing }, async (t) => {
                 assert.deepEqual(one.errors, [], name);
                 assert.deepEqual(one.pixels, pixels, name);
             }
-            assert.match(without_worker.errors[0], /worker\.js was not found/);
+            assert.match(without_worker.errors[0], /worker\.js did not start/);
         });
     } finally {
         rmSync(folder, { recursive: true });

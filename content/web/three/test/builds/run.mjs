@@ -5,19 +5,28 @@ import { execFileSync } from "node:child_process";
 import { existsSync, mkdirSync, rmSync, symlinkSync, writeFileSync } from "node:fs";
 import { createRequire } from "node:module";
 import { join } from "node:path";
-import { fileURLToPath, pathToFileURL } from "node:url";
+import { fileURLToPath } from "node:url";
 import { packageFolder } from "../browser.mjs";
-import { example, inline, pack, pageOf, pictures, unpack, watched, withoutBundler } from "./apps.mjs";
+import { copyWorker, example, inline, pack, pageOf, pictures, unpack, watched, withoutBundler, WORKER_FILES } from "./apps.mjs";
 
 const here = fileURLToPath(new URL(".", import.meta.url));
 const work = here + "work/"; // below node_modules of this folder
 const of = createRequire(here);
-const imported = (name) => import(pathToFileURL(of.resolve(name)));
 const program = (name) => here + "node_modules/.bin/" + name;
 const run = (folder, name, ...words) => execFileSync(program(name), words, { cwd: folder, encoding: "utf8", stdio: ["ignore", "pipe", "pipe"],
     env: { ...process.env, NEXT_TELEMETRY_DISABLED: "1", PARCEL_DISABLE_CACHE: "1" } });
 
 const servers = [];
+async function viteServer(folder, version, config) {
+    writeFileSync(folder + "index.html", watched(pageOf("/disc.js"), inline));
+    const { createServer } = await import(version);
+    const server = await createServer({ root: folder, configFile: false, logLevel: "error", cacheDir: folder + "cache",
+        server: { port: 0, host: "127.0.0.1", fs: { strict: false } }, ...config });
+    await server.listen();
+    servers.push(server);
+    return server.resolvedUrls.local[0];
+}
+
 const APPS = {
     async webpack(folder) {
         const webpack = of("webpack");
@@ -53,15 +62,28 @@ export default function Page() {
         run(folder, "next", "build");
         return "out/index.html";
     },
-    async vite_dev(folder) {
-        writeFileSync(folder + "index.html", watched(pageOf("/disc.js"), inline));
-        const { createServer } = await imported("vite");
-        const server = await createServer({ root: folder, configFile: false, logLevel: "error", cacheDir: folder + "cache",
-            server: { port: 0, host: "127.0.0.1", fs: { strict: false } }, optimizeDeps: { exclude: ["@rowland/three"] } });
-        await server.listen();
-        servers.push(server);
-        return server.resolvedUrls.local[0];
+    /** From a service worker's cache alone, which has the bundle and the worker's files. */
+    async offline(folder) {
+        const { build } = await import("esbuild");
+        await build({ entryPoints: [folder + "disc.js"], bundle: true, format: "esm", outfile: folder + "app.js", logLevel: "error" });
+        copyWorker(here + "node_modules/@rowland/three", folder);
+        const files = ["index.html", "app.js", ...WORKER_FILES, "/drivers/picture_driver.js", "/drivers/frame_driver.js"];
+        writeFileSync(folder + "index.html", `<!doctype html>\n<script type="module">
+if (navigator.serviceWorker.controller) await import("./app.js");
+else {
+    navigator.serviceWorker.addEventListener("controllerchange", () => location.reload());
+    await navigator.serviceWorker.register("service.js");
+}
+</script>\n`);
+        writeFileSync(folder + "service.js", `const files = ${JSON.stringify(files)};
+addEventListener("install", (event) => event.waitUntil(caches.open("disc").then((cache) => cache.addAll(files))));
+addEventListener("activate", (event) => event.waitUntil(clients.claim()));
+addEventListener("fetch", (event) => event.respondWith(caches.match(event.request).then((found) => found ?? Response.error())));
+`);
+        return "index.html";
     },
+    vite_dev: (folder) => viteServer(folder, "vite", {}),
+    vite_7_dev: (folder) => viteServer(folder, "vite_7", { optimizeDeps: { exclude: ["@rowland/three"] } }),
 };
 
 const VERSIONS = ["three_185", "three_186"]; // beside "three", the newest
