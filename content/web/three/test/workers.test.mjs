@@ -49,6 +49,7 @@ test("fifty materials that are disposed leave the workers as they were", { skip 
         const material = new GratingMaterial({ rowland, grating: CD });
         await material.solved;
         material.dispose();
+        while (rowland.busy) await new Promise(setImmediate);
     };
     const bytes = async () => (await workers[0].modules.get("bake")).memory.buffer.byteLength;
     for (let i = 0; i < 5; ++i) await once();
