@@ -1,6 +1,6 @@
 export { GratingMaterial } from "./material.js";
 export type { GratingParameters } from "./graded.js";
-export type { Representation } from "./grating_state.js";
+export type { Representation } from "./surface.js";
 export { GratingExtension } from "./gltf.js";
 export { Rowland, type Efficiencies } from "./rowland.js";
 export type { Grooves } from "./frames.js";
