@@ -121,7 +121,10 @@ async function beetle() {
     root.setDefaultScene(scene.addChild(node).setName("beetle").setExtras({})).setExtras({});
     for (const used of root.listExtensionsUsed()) if (used.extensionName === "KHR_lights_punctual") used.dispose();
     await made.transform(withGratings(prune()), unpartition());
-    for (const material of root.listMaterials()) material.getExtension(NAME)?.setMember("quality", undefined);
+    const wing = root.listMaterials().find((material) => material.getExtension(NAME));
+    wing.setBaseColorFactor([0.011, 0.0085, 0.0075, 1]).setRoughnessFactor(0.24);
+    wing.getExtension(NAME).setGrooveRotation(Math.PI / 2) // along the wing case, as the demo has it
+        .setMembers({ grating: { pitch_nm: 1250, profile: { type: "slit", width_nm: 250 }, orders: [-1, 1] } });
     root.listExtensionsUsed().find((used) => used.extensionName === KHRDracoMeshCompression.EXTENSION_NAME)
         .setEncoderOptions({ quantizationBits: { POSITION: 11, NORMAL: 8, GENERIC: 8 } });
     Object.assign(root.getAsset(), ASSET);
