@@ -19,8 +19,10 @@ const { RowlandMaterialsDiffraction, withGratings } = await import(pathToFileURL
 const NAME = "ROWLAND_materials_diffraction";
 const ASSET = { generator: "Rowland", copyright: "2026 The Rowland authors, MIT licence" };
 const TILTED = [Math.sin(Math.PI / 6), 0, 0, Math.cos(Math.PI / 6)]; // by 60 degrees, toward a viewer on +Z
-const io = new NodeIO().setLogger(new Logger(Logger.Verbosity.ERROR)).registerExtensions([...ALL_EXTENSIONS, RowlandMaterialsDiffraction])
-    .registerDependencies({ "draco3d.decoder": await draco.createDecoderModule(), "draco3d.encoder": await draco.createEncoderModule() });
+const io = new NodeIO().setLogger(new Logger(Logger.Verbosity.ERROR))
+    .registerExtensions([...ALL_EXTENSIONS, RowlandMaterialsDiffraction]).registerDependencies({
+        "draco3d.decoder": await draco.createDecoderModule(), "draco3d.encoder": await draco.createEncoderModule(),
+    });
 
 /** Of a material file: without the layer beneath, which is the glTF's, and without how a program of ours draws it. */
 function fileMembers(name) {
@@ -131,7 +133,8 @@ async function beetle() {
     return made;
 }
 
-const cd = document("CD", ring(0.023, 0.0583), { members: fileMembers("cd_pressed"), colour: [0.02, 0.02, 0.02], roughness: 0.3 });
+const cd = document("CD", ring(0.023, 0.0583),
+    { members: fileMembers("cd_pressed"), colour: [0.02, 0.02, 0.02], roughness: 0.3 });
 cd.getRoot().listBuffers()[0].setURI("cd.bin");
 await io.write(here + "cd.gltf", cd);
 
@@ -142,7 +145,8 @@ await io.write(here + "record.glb", document("record", ring(0.0605, 0.1462), {
 }));
 
 const { grating: { groove_lobe: _, ...grating }, ...layers } = fileMembers("holographic_foil"); // with the flat lobe
-const foil = document("foil", card(0.08, 0.05), { members: { grating, ...layers }, colour: [0.25, 0.25, 0.26], roughness: 0.35, metallic: 1 });
+const foil = document("foil", card(0.08, 0.05),
+    { members: { grating, ...layers }, colour: [0.25, 0.25, 0.26], roughness: 0.35, metallic: 1 });
 const diffraction = foil.getRoot().listMaterials()[0].getExtension(NAME);
 diffraction.setGrooveTexture(foil.createTexture("foil grooves").setImage(pinwheels(8, 5, 16)).setMimeType("image/png"));
 diffraction.getGrooveTextureInfo().setMagFilter(TextureInfo.MagFilter.NEAREST).setWrapS(TextureInfo.WrapMode.CLAMP_TO_EDGE)

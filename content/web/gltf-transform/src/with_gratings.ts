@@ -23,7 +23,8 @@ export function withGratings(transform: Transform): Transform {
         const graph = document.getGraph();
         const primitives = () => root.listMeshes().flatMap((mesh) => mesh.listPrimitives())
             .filter((primitive) => primitive.getMaterial()?.getExtension(NAME));
-        const gratings = new Map<Property, Property | null>(root.listMaterials().map((material) => [material, material.getExtension(NAME)]));
+        const gratings = new Map<Property, Property | null>(
+            root.listMaterials().map((material) => [material, material.getExtension(NAME)]));
         const onDispose = (event: unknown) => {
             const grating = gratings.get((event as { target: Property }).target);
             if (grating && grating.listParents().length === 0) grating.dispose();

@@ -21,7 +21,8 @@ const POLICY = /`(default-src 'none';[^`]*)`/.exec(readFileSync(packageFolder + 
 const BUNDLERS = {
     async esbuild(folder, from) {
         const { build } = await import("esbuild");
-        await build({ entryPoints: [folder + "/disc.js"], bundle: true, format: "esm", outfile: folder + "/out/app.js", logLevel: "error" });
+        const [input, outfile] = [folder + "/disc.js", folder + "/out/app.js"];
+        await build({ entryPoints: [input], bundle: true, format: "esm", outfile, logLevel: "error" });
         copyWorker(from, folder + "/out");
         writeFileSync(folder + "/out/index.html", pageOf("app.js"));
         return "out/index.html";
@@ -50,6 +51,28 @@ const BUNDLERS = {
     },
 };
 
+const USE = `import "./disc.js";
+import { GratingMaterial } from "@rowland/three";
+export const material: GratingMaterial = new GratingMaterial({ representation: "planar" });
+// @ts-expect-error: no such representation
+new GratingMaterial({ representation: "spheres" });
+`;
+
+/** What the compiler says of the README's page and of USE, in a folder with the package. */
+function compilerSays(folder, options) {
+    example(folder);
+    writeFileSync(join(folder, "use.mts"), USE);
+    writeFileSync(join(folder, "package.json"), '{ "type": "module" }');
+    const compilerOptions = { strict: true, noEmit: true, allowJs: true, checkJs: true, target: "ES2022", lib: ["ES2022", "DOM"],
+        types: [], skipLibCheck: true, ...options };
+    writeFileSync(join(folder, "tsconfig.json"), JSON.stringify({ compilerOptions, include: ["use.mts"] }));
+    try {
+        return execFileSync(process.execPath, [packageFolder + "node_modules/typescript/bin/tsc", "-p", folder], { encoding: "utf8" });
+    } catch (error) {
+        return error.stdout;
+    }
+}
+
 test("the packed package", { skip: missing }, async (t) => {
     const folder = mkdtempSync(join(tmpdir(), "rowland-builds-"));
     const from = unpack(pack(folder), folder);
@@ -71,28 +94,17 @@ test("the packed package", { skip: missing }, async (t) => {
             assert.deepEqual(messages, []);
         });
         await t.test("can be imported and constructed without a browser", () => {
-            const script = 'import { GratingMaterial, Rowland } from "@rowland/three"; new Rowland(); new GratingMaterial(); console.log(Rowland.name)';
-            assert.equal(execFileSync(process.execPath, ["--input-type=module", "-e", script], { cwd: folder, encoding: "utf8" }), "Rowland\n");
+            const script = `import { GratingMaterial, Rowland } from "@rowland/three";
+                new Rowland(); new GratingMaterial(); console.log(Rowland.name)`;
+            const words = ["--input-type=module", "-e", script];
+            assert.equal(execFileSync(process.execPath, words, { cwd: folder, encoding: "utf8" }), "Rowland\n");
         });
         await t.test("has types for every way in which modules are found", () => {
-            example(folder);
-            const options = { strict: true, noEmit: true, allowJs: true, checkJs: true, target: "ES2022", lib: ["ES2022", "DOM"], types: [], skipLibCheck: true };
-            for (const [module, moduleResolution] of [["ES2022", "bundler"], ["nodenext", "nodenext"]]) {
-                writeFileSync(join(folder, "use.mts"), 'import "./disc.js";\nimport { GratingMaterial } from "@rowland/three";\n' +
-                    "const material: GratingMaterial = new GratingMaterial({ representation: \"planar\" });\n" +
-                    "// @ts-expect-error: no such representation\nnew GratingMaterial({ representation: \"spheres\" });\nexport { material };\n");
-                writeFileSync(join(folder, "package.json"), '{ "type": "module" }');
-                writeFileSync(join(folder, "tsconfig.json"), JSON.stringify({ compilerOptions: { ...options, module, moduleResolution }, include: ["use.mts"] }));
-                let said = "";
-                try {
-                    execFileSync(process.execPath, [packageFolder + "node_modules/typescript/bin/tsc", "-p", folder], { encoding: "utf8" });
-                } catch (error) {
-                    said = error.stdout;
-                }
-                assert.equal(said, "", moduleResolution);
-            }
+            for (const [module, moduleResolution] of [["ES2022", "bundler"], ["nodenext", "nodenext"]])
+                assert.equal(compilerSays(folder, { module, moduleResolution }), "", moduleResolution);
         });
-        await t.test("shows the same disc by import maps, esbuild under a strict policy, Rollup and Vite", { skip: chromium() ? false : "needs Chromium" }, async (t) => {
+        const same = "shows the same disc by import maps, esbuild under a strict policy, Rollup and Vite";
+        await t.test(same, { skip: chromium() ? false : "needs Chromium" }, async (t) => {
             const pages = { plain: withoutBundler(folder) };
             for (const [name, build] of Object.entries(BUNDLERS)) {
                 example(join(folder, name));
@@ -103,7 +115,8 @@ test("the packed package", { skip: missing }, async (t) => {
             const headers = (path) => (path.startsWith("/esbuild/") ? { "content-security-policy": POLICY } : {});
             const { without_worker, ...shown } = await pictures(folder, pages, { headers });
             const { colour, pixels, url } = shown.plain;
-            if (process.env.PICTURES) writeFileSync(join(process.env.PICTURES, "disc.png"), Buffer.from(url.split(",")[1], "base64"));
+            const { PICTURES } = process.env;
+            if (PICTURES) writeFileSync(join(PICTURES, "disc.png"), Buffer.from(url.split(",")[1], "base64"));
             assert.ok(colour > 3 && pixels.length === 4 * 96 * 54, `colours of ${colour}`); // without grooves it is grey
             for (const [name, one] of Object.entries(shown)) {
                 assert.deepEqual(one.errors, [], name);

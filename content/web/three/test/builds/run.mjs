@@ -13,8 +13,9 @@ const here = fileURLToPath(new URL(".", import.meta.url));
 const work = here + "work/"; // below node_modules of this folder
 const of = createRequire(here);
 const program = (name) => here + "node_modules/.bin/" + name;
-const run = (folder, name, ...words) => execFileSync(program(name), words, { cwd: folder, encoding: "utf8", stdio: ["ignore", "pipe", "pipe"],
-    env: { ...process.env, NEXT_TELEMETRY_DISABLED: "1", PARCEL_DISABLE_CACHE: "1" } });
+const run = (folder, name, ...words) => execFileSync(program(name), words, {
+    cwd: folder, stdio: ["ignore", "pipe", "pipe"], env: { ...process.env, NEXT_TELEMETRY_DISABLED: "1" },
+});
 
 const servers = [];
 async function viteServer(folder, version, config) {
@@ -31,7 +32,8 @@ const APPS = {
     async webpack(folder) {
         const webpack = of("webpack");
         const stats = await new Promise((resolve, reject) => webpack({
-            context: folder, entry: "./disc.js", mode: "production", output: { path: folder + "out", publicPath: "auto" }, optimization: { minimize: false }, performance: false,
+            context: folder, entry: "./disc.js", mode: "production", output: { path: folder + "out" },
+            optimization: { minimize: false }, performance: false,
         }, (error, result) => (error ? reject(error) : resolve(result))));
         assert.ok(!stats.hasErrors(), stats.toString({ all: false, errors: true }));
         assert.deepEqual(stats.toJson({ all: false, warnings: true }).warnings.map(({ message }) => message), []);
@@ -41,13 +43,15 @@ const APPS = {
     async parcel(folder) {
         writeFileSync(folder + "index.html", pageOf("./disc.js"));
         writeFileSync(folder + "package.json", '{ "private": true }');
-        run(folder, "parcel", "build", "index.html", "--dist-dir", "out", "--public-url", "./", "--no-optimize", "--no-autoinstall");
+        run(folder, "parcel", "build", "index.html", "--dist-dir", "out", "--public-url", "./", "--no-optimize", "--no-cache",
+            "--no-autoinstall");
         return "out/index.html";
     },
     async next(folder) {
         mkdirSync(folder + "app");
         writeFileSync(folder + "package.json", '{ "private": true }');
-        writeFileSync(folder + "next.config.mjs", `export default { output: "export", basePath: "/next/out", turbopack: { root: ${JSON.stringify(here)} } };\n`);
+        const config = { output: "export", basePath: "/next/out", turbopack: { root: here } };
+        writeFileSync(folder + "next.config.mjs", `export default ${JSON.stringify(config)};\n`);
         writeFileSync(folder + "app/layout.jsx", "export default ({ children }) => <html><body>{children}</body></html>;\n");
         // The component is drawn on the server as well, where the package is imported and a Rowland constructed.
         writeFileSync(folder + "app/page.jsx", `"use client";
