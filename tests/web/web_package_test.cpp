@@ -1,4 +1,5 @@
-// The npm package in a browser: content/web/three/test, in the copy that `./rowland web` builds.
+// The npm packages: content/web/three/test in a browser, in the copy that `./rowland web` builds, and
+// content/web/gltf-transform/test, in the copy that `./rowland test --all` builds.
 
 #include "tests/support/files.h"
 #include "tests/support/program.h"
@@ -24,6 +25,17 @@ TEST(WebPackage, ItsTestsPassInABrowser) {
                                          .limit = std::chrono::minutes(15)});
     EXPECT_EQ(ended.code, 0) << ended.out << ended.err;
     EXPECT_EQ(ended.out.find("# skipped 1"), std::string::npos) << ended.out;
+}
+
+TEST(WebPackage, ThePlugInOfGltfTransformKeepsGratingsAndItsSchemaIsTheParsers) {
+    const std::filesystem::path package = test::source_path("build/web/gltf-transform");
+    if (!runs({"/usr/bin/env", "npm", "--version"})) GTEST_SKIP() << "needs npm (Debian: nodejs, npm)";
+    if (!std::filesystem::exists(package / "dist/index.js")) GTEST_SKIP() << "needs the built package: npm run build";
+    const test::Ended ended = test::run(
+        {"/usr/bin/env", "npm", "test"},
+        {.environment = {{"ROWLAND_TRADE", ROWLAND_TRADE}}, .folder = package, .limit = std::chrono::minutes(2)});
+    EXPECT_EQ(ended.code, 0) << ended.out << ended.err;
+    EXPECT_NE(ended.out.find("# skipped 0"), std::string::npos) << ended.out;
 }
 
 }  // namespace

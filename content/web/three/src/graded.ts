@@ -26,6 +26,19 @@ export function graded<Base extends Physical>(base: Base) {
             return this;
         }
 
+        /** Of three's MaterialLoader, which gets the grating without a Rowland: call bake(rowland, material.grating) then. */
+        override toJSON(meta?: Parameters<Material["toJSON"]>[0]): ReturnType<Material["toJSON"]> {
+            const { grating, grooves, representation } = this.state.settings;
+            return Object.assign(super.toJSON(meta), { type: "GratingMaterial", grating, grooves, representation });
+        }
+
+        override fromJSON(...[json, textures]: Parameters<Material["fromJSON"]>): this {
+            super.fromJSON(json, textures);
+            const { grating, grooves, representation } = json as GratingSettings;
+            this.state.configure({ grating, grooves, representation });
+            return this;
+        }
+
         override dispose(): void {
             super.dispose();
             this.state.dispose();

@@ -2,6 +2,7 @@
 export class TaskWorker {
     private readonly waiting = new Map<number, { resolve: (result: never) => void; reject: (error: Error) => void }>();
     private next = 1;
+    private failed?: Error; // it did not start, and will not answer
 
     /** `onIdle`: called when no call is pending and the last result has led to no other call. */
     constructor(private readonly worker: Worker, onIdle: () => void) {
@@ -13,13 +14,15 @@ export class TaskWorker {
             if (!this.busy) setTimeout(() => this.busy || onIdle());
         };
         worker.onerror = (event) => {
-            const error = new Error(event.message || "the worker of @rowland/three did not start");
+            const error = new Error(event.message || "@rowland/three: worker.js did not start; the README, \"In builds\", says what bundlers and policies need");
+            if (!event.message) this.failed = error;
             for (const waiting of this.waiting.values()) waiting.reject(error);
             this.waiting.clear();
         };
     }
 
     run<Result>(task: string, args: unknown[], transfer: Float32Array[] = []): Promise<Result> {
+        if (this.failed) return Promise.reject(this.failed);
         const id = this.next++;
         return new Promise<Result>((resolve, reject) => {
             this.waiting.set(id, { resolve: resolve as (result: never) => void, reject });

@@ -2,9 +2,19 @@
 
 import { Tasks } from "./tasks.js";
 
+// Bundlers find a file by these words alone: a name that is put together they do not.
+const FILES = {
+    bake: new URL("./bake.wasm", import.meta.url),
+    keys: new URL("./keys.wasm", import.meta.url),
+    arc: new URL("./arc.wasm", import.meta.url),
+    reference: new URL("./reference.wasm", import.meta.url),
+    solve: new URL("./solve.wasm", import.meta.url),
+    film: new URL("./film.wasm", import.meta.url),
+};
+
 const tasks = new Tasks(async (name) => {
-    const response = await fetch(new URL(`./${name}.wasm`, import.meta.url));
-    if (!response.ok) throw new Error(`${name}.wasm: ${response.status} ${response.statusText}; expected beside worker.js`);
+    const response = await fetch(FILES[name]);
+    if (!response.ok) throw new Error(`${FILES[name]}: ${response.status} ${response.statusText}; expected ${name}.wasm of @rowland/three`);
     return response.arrayBuffer();
 });
 

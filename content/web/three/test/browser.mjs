@@ -34,7 +34,7 @@ export function withDrivers(text, ...drivers) {
  * Starts a server; `task` is what the page fetches, `files` maps further paths to files. A page posts its result to
  * /result, and to /devtools what a hand would do, as commands of the DevTools protocol.
  */
-function serve(task, files, folder, requests, onResult, onCommand) {
+function serve(task, files, folder, headers, requests, onResult, onCommand) {
     const server = createServer(async (request, response) => {
         const path = new URL(request.url, "http://localhost").pathname;
         requests.push(path);
@@ -49,19 +49,21 @@ function serve(task, files, folder, requests, onResult, onCommand) {
             response.statusCode = 404;
             return response.end();
         }
+        for (const [name, value] of Object.entries(headers(path))) response.setHeader(name, value);
         response.setHeader("content-type", TYPES[extname(file)] ?? "application/octet-stream");
         response.end(readFileSync(file));
     });
     return new Promise((resolve) => server.listen(0, "127.0.0.1", () => resolve(server)));
 }
 
-/** What the page posts to /result. `requests` gets the paths that it asks for. */
-export async function resultOf(page, task, { files = {}, folder = packageFolder, seconds = 240, size = "800,600", requests = [] } = {}) {
+/** What the page posts to /result. `headers`: those of a path, beside its type; `requests` gets the paths that are asked for. */
+export async function resultOf(page, task, { files = {}, folder = packageFolder, headers = () => ({}), seconds = 240, size = "800,600",
+    requests = [] } = {}) {
     let server, browser, tools, timer;
     const profile = mkdtempSync(join(tmpdir(), "rowland-chromium-"));
     try {
         return await new Promise(async (resolve, reject) => {
-            server = await serve(task, files, folder, requests, resolve, (command) => tools.command(command));
+            server = await serve(task, files, folder, headers, requests, resolve, (command) => tools.command(command));
             timer = setTimeout(() => reject(new Error(`no result of ${page} in ${seconds} s`)), 1000 * seconds);
             browser = spawn(chromium(), ["--headless=new", "--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader",
                 "--enable-unsafe-swiftshader", "--remote-debugging-pipe", `--window-size=${size}`, `--user-data-dir=${profile}`,

@@ -3,13 +3,15 @@
 #define KEY_LOBES
 #define SHOWN_LAYERS LAYERS
 #include "engine/gpu/shaders/dialect.glsl"
-in vec3 world_position;
-in vec3 world_normal;
+uniform mat3 probe_from_world;
+// Set from three's varyings, as WebGL 2 promises only 60 components. Positions count from the eye.
+vec3 world_position;
+vec3 world_normal;
 #ifdef ROWLAND_GROOVE_UV
 in vec2 groove_uv;
 #define GROOVE_MAP groove_uv
 #endif
-#define eye cameraPosition
+const vec3 eye = vec3(0.0);
 uniform mat3 xyz_to_working;  // linear Rec.709
 uniform vec3 mirror_weight;
 uniform vec3 base_weight;
@@ -31,7 +33,13 @@ vec3 lit_sum;  // diffracted radiance of three's lights
 int lit_parts;  // parts of a pixel whose grooves vary
 #endif
 
-void prepare_grooves() {
+// In the probe, of a direction in the view.
+vec3 in_probe(vec3 direction) { return probe_from_world * (vec4(direction, 0.0) * viewMatrix).xyz; }
+
+// In the view: toward the eye, and the normal of the side that has the grooves.
+void prepare_grooves(vec3 to_eye, vec3 normal) {
+    world_position = -in_probe(to_eye);
+    world_normal = in_probe(normal);
     lit_view = groove_view();
     lit_sum = vec3(0.0);
 #ifdef GROOVE_MAP
@@ -57,7 +65,7 @@ vec3 lamp_radiance(GrooveView view, PixelU u, vec3 s, vec3 irradiance) {
     return kernel_to_working(factor * pitch_kernel_value(u.mean, view.direction.x, deviation_of(u), irradiance, view.pitch));
 }
 
-// Adds one of three's lights. `s`: toward it, in the world; `irradiance`: on a surface that faces it.
+// Adds one of three's lights. `s`: toward it, in the probe; `irradiance`: on a surface that faces it.
 void add_lamp(vec3 s, vec3 irradiance) {
 #ifdef GROOVE_MAP
     MeshU mesh = mesh_u_of(lit_view, s);
@@ -116,7 +124,7 @@ void RE_Direct_Grating(const in IncidentLight directLight, const in vec3 geometr
                        inout ReflectedLight reflectedLight) {
     RE_Direct_Physical(directLight, geometryPosition, geometryNormal, geometryViewDir, geometryClearcoatNormal, material,
                        reflectedLight);
-    add_lamp(inverseTransformDirection(directLight.direction, viewMatrix), directLight.color);
+    add_lamp(in_probe(directLight.direction), directLight.color);
 }
 #undef RE_Direct
 #define RE_Direct RE_Direct_Grating
