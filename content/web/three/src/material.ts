@@ -58,21 +58,23 @@ export class GratingMaterial extends graded(MeshPhysicalMaterial) {
     }
 
     /** How many layers of a table the program shows, once it is within the GPU's limits. */
-    private fit(shader: WebGLProgramParametersWithUniforms, { capabilities }: WebGLRenderer): number {
+    private fit(shader: WebGLProgramParametersWithUniforms, renderer?: WebGLRenderer): number {
+        // A subclass may call onBeforeCompile without the renderer.
+        const { maxTextures, maxVaryings } = renderer?.capabilities ?? { maxTextures: Infinity, maxVaryings: Infinity };
         const { options } = this.state;
         const grooveTexture = options.has("ROWLAND_GROOVE_UV");
         const layers = options.has("ROWLAND_ARC") ? Number(options.get("LAYERS")) : 0;
         const tables = layers > 0 ? 3 : options.has("ROWLAND_PLANAR") ? 1 : 0;
         const textures = (options.has("ROWLAND") ? 1 : 0) + tables + (grooveTexture ? 2 : 0) + (layers > 0 && shader.batching ? 1 : 0);
-        const found = fit(shader, { textures, layers, grooveTexture }, capabilities.maxTextures, capabilities.maxVaryings);
+        const found = fit(shader, { textures, layers, grooveTexture }, maxTextures, maxVaryings);
         const lacking = [...found.leftOut, ...(found.layers < layers ? [`${layers - found.layers} of ${layers} layers of its table`] : [])];
         if (lacking.length > 0 && options.has("ROWLAND"))
-            this.state.tell(`GratingMaterial "${this.name}": this GPU has ${capabilities.maxTextures} texture units and ` +
-                `${capabilities.maxVaryings} varying vectors; left out: ${lacking.join(", ")}. Give it fewer maps or lights with shadows`);
+            this.state.tell(`GratingMaterial "${this.name}": this GPU has ${maxTextures} texture units and ` +
+                `${maxVaryings} varying vectors; left out: ${lacking.join(", ")}. Give it fewer maps or lights with shadows`);
         return found.layers;
     }
 
-    private compile(shader: WebGLProgramParametersWithUniforms, renderer: WebGLRenderer): void {
+    private compile(shader: WebGLProgramParametersWithUniforms, renderer?: WebGLRenderer): void {
         const { values } = this.state;
         const shownLayers = `#define SHOWN_LAYERS ${this.fit(shader, renderer)}\n`;
         // Programs take their list of uniforms when they are compiled, and values may come later.
