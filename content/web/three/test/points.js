@@ -1,8 +1,11 @@
-// Renders the points of a test, a quad of pixels each, and posts their radiance.
+// Renders the points of a test, a quad of pixels each, by each of the renderers, and posts their radiance.
 import * as THREE from "three";
+import { attribute, vec4 } from "three/tsl";
+import { WebGPURenderer } from "three/webgpu";
 import { EXRLoader } from "three/examples/jsm/loaders/EXRLoader.js";
 import { HDRLoader } from "three/examples/jsm/loaders/HDRLoader.js";
 import { GratingMaterial, Rowland } from "../dist/index.js";
+import { GratingNodeMaterial } from "../dist/webgpu.js";
 
 const post = (value) => fetch("/result", { method: "POST", body: JSON.stringify(value) });
 
@@ -12,6 +15,36 @@ class PointMaterial extends GratingMaterial {
         super.onBeforeCompile(shader);
         shader.vertexShader = "attribute vec2 place;\n" +
             shader.vertexShader.replace(/}\s*$/, "gl_Position = vec4(place, 0.0, 1.0);\n}");
+    }
+}
+
+class PointNodeMaterial extends GratingNodeMaterial {
+    setupModelViewProjection() {
+        return vec4(attribute("place", "vec2"), 0, 1);
+    }
+}
+
+/** Bakes a case once for all renderers. */
+class SharedRowland extends Rowland {
+    shared = new Map();
+    once(key, bake) {
+        if (!this.shared.has(key)) this.shared.set(key, bake());
+        return this.shared.get(key);
+    }
+    material(id, grating, efficiencies) {
+        return this.once(`material ${efficiencies !== undefined}`, () => super.material(id, grating, efficiencies));
+    }
+    solve(...of) {
+        return this.once("solve", () => super.solve(...of));
+    }
+    plane(...of) {
+        return this.once(`plane ${of.at(-1)}`, () => super.plane(...of));
+    }
+    arc(...of) {
+        return this.once("arc", () => super.arc(...of));
+    }
+    products(...of) {
+        return this.once("products", () => super.products(...of));
     }
 }
 
@@ -51,12 +84,11 @@ function grooveTexture(texels) {
     return texture;
 }
 
-async function radiance(renderer, rowland, { grating, representation, frames, lamp, texels, mirrored }) {
+async function radiance({ renderer, Material }, rowland, { grating, representation, frames, lamp, texels, mirrored }) {
     const scene = new THREE.Scene();
     const camera = new THREE.PerspectiveCamera();
-    const material = new PointMaterial({ rowland, grating, representation, grooveTexture: texels && grooveTexture(texels),
-        side: THREE.DoubleSide });
-    material.defines.ROWLAND_UNCOMPRESSED = "1";
+    const material = new Material({ rowland, grating, representation, grooveTexture: texels && grooveTexture(texels), side: THREE.DoubleSide });
+    material.state.options.set("ROWLAND_UNCOMPRESSED", "1");
     if (lamp) {
         const light = new THREE.DirectionalLight(new THREE.Color(...lamp.flux), 1);
         light.position.set(...lamp.direction);
@@ -75,15 +107,43 @@ async function radiance(renderer, rowland, { grating, representation, frames, la
     draw();
     await material.settled;
     draw();
-    const pixels = new Float32Array(8 * frames.length * 2);
-    renderer.readRenderTargetPixels(target, 0, 0, 2 * frames.length, 2, pixels);
+    const size = [2 * frames.length, 2];
+    const pixels = renderer.isWebGLRenderer ? new Float32Array(4 * size[0] * size[1]) : await renderer.readRenderTargetPixelsAsync(target, 0, 0, ...size);
+    if (renderer.isWebGLRenderer) renderer.readRenderTargetPixels(target, 0, 0, ...size, pixels);
+    target.dispose();
+    material.dispose();
     return frames.map((_, i) => [...pixels.subarray(8 * i, 8 * i + 3)]);
 }
 
+/** Renderers by name; that on WebGPU only where the browser has it. */
+async function renderersOf(names) {
+    const all = {};
+    for (const name of names) {
+        if (name === "WebGLRenderer") {
+            all[name] = { renderer: new THREE.WebGLRenderer(), Material: PointMaterial };
+            continue;
+        }
+        const forceWebGL = name.endsWith("WebGL 2");
+        if (!forceWebGL && !(await navigator.gpu?.requestAdapter())) continue;
+        const renderer = new WebGPURenderer({ forceWebGL });
+        await renderer.init();
+        if (forceWebGL === (renderer.backend.isWebGPUBackend === true)) throw new Error(`${name}: the renderer took another back end`);
+        all[name] = { renderer, Material: PointNodeMaterial };
+    }
+    return all;
+}
+
+const errors = []; // of shaders, which three logs
+for (const kind of ["error", "warn"]) {
+    const log = console[kind];
+    console[kind] = (...words) => {
+        errors.push(words.join(" "));
+        log(...words);
+    };
+}
 try {
-    const { probe, keyLights, cases } = await (await fetch("/task")).json();
-    const renderer = new THREE.WebGLRenderer();
-    const rowland = new Rowland();
+    const { probe, keyLights, renderers, cases } = await (await fetch("/task")).json();
+    const rowland = new SharedRowland();
     rowland.onError = (error) => post({ error: error.message });
     const loader = probe.endsWith(".exr") ? new EXRLoader() : new HDRLoader();
     loader.setDataType(THREE.FloatType);
@@ -91,10 +151,16 @@ try {
     // three takes a byte of a Radiance mantissa as n/255; the format and Rowland as n/256.
     if (probe.endsWith(".hdr")) light.image.data = light.image.data.map((x) => (x * 255) / 256);
     await rowland.setProbe(light, { keyLights });
+    const drawing = await renderersOf(renderers);
     const results = [];
-    for (const one of cases)
-        results.push(await (one.representation === "reference" ? reference(rowland, one) : radiance(renderer, rowland, one)));
-    await post({ results });
+    for (const one of cases) {
+        rowland.shared.clear();
+        const shown = {};
+        if (one.representation === "reference") shown.reference = await reference(rowland, one);
+        else for (const [name, by] of Object.entries(drawing)) shown[name] = await radiance(by, rowland, one);
+        results.push(shown);
+    }
+    await post({ results, errors });
 } catch (error) {
-    await post({ error: error.message + "\n" + error.stack });
+    await post({ error: error.message + "\n" + error.stack, errors });
 }
