@@ -91,6 +91,7 @@ export class GratingState {
     private frameShown?: Float32Array;
     private seen?: { geometry: BufferGeometry; object: Object3D }; // as it was last drawn
     private busy = false;
+    private refused = false;
     private leave?: () => void;
 
     constructor(private readonly owner: GratingOwner) {}
@@ -348,6 +349,15 @@ export class GratingState {
         if (this.values.light_scale.value !== scene.environmentIntensity) this.set("light_scale", scene.environmentIntensity);
         this.flag("ROWLAND_RADIAL", (this.grooves ?? groovesOf(geometry)) === "radial");
         this.follow();
+    }
+
+    /** Says once that a renderer cannot draw the owner, and what it can. */
+    refuse(renderer: string, owner: string, remedy: string): void {
+        if (this.refused) return;
+        this.refused = true;
+        const error = new Error(`${renderer} cannot draw ${owner}; expected ${remedy}`);
+        if (this.rowland) this.rowland.onError(error);
+        else console.error(error);
     }
 
     /** Whether reference() shows its grooves: not those of a texture, which vary within a pixel. */

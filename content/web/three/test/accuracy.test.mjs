@@ -224,11 +224,13 @@ for (const [probe, cases, renderers] of [["venice_sunset_256.hdr", CASES, RENDER
         const folder = mkdtempSync(join(tmpdir(), "rowland-accuracy-"));
         try {
             const path = await lossless(join(probes, probe), folder);
-            const { results, errors, error } = await resultOf("test/points.html",
+            const { results, errors, error, refusals } = await resultOf("test/points.html",
                 { probe: "/probe/" + probe, keyLights: KEY_LIGHTS, renderers, cases: cases.map((one) => (one.grooves ? { ...one, texels: texelsOf(one) } : one)) },
                 { files: { ["/probe/" + probe]: path }, webgpu: true });
             assert.equal(error, undefined);
             assert.deepEqual(errors, [], "three logs what a compiler of GLSL or WGSL refuses");
+            assert.deepEqual(refusals, ["WebGPURenderer cannot draw GratingMaterial; expected GratingNodeMaterial of @rowland/three/webgpu",
+                "WebGLRenderer cannot draw GratingNodeMaterial; expected GratingMaterial of @rowland/three"]);
             for (const name of renderers) await t.test(name, { skip: name in results[0] ? false : "this Chromium offers no WebGPU adapter" }, () => {});
             for (const [i, one] of cases.entries())
                 await t.test(one.name, () => {

@@ -55,7 +55,7 @@ function serve(task, files, folder, requests, onResult, onCommand) {
     return new Promise((resolve) => server.listen(0, "127.0.0.1", () => resolve(server)));
 }
 
-/** Chromium's flags for WebGPU without a GPU, and for its canvas. */
+/** Chromium's flags for WebGPU without a GPU. */
 const WEBGPU = ["--enable-unsafe-webgpu", "--use-webgpu-adapter=swiftshader", "--enable-features=Vulkan", "--use-vulkan=swiftshader"];
 
 /** What the page posts to /result. `requests` gets the paths that it asks for; `webgpu`: the page may use it. */

@@ -133,6 +133,27 @@ async function renderersOf(names) {
     return all;
 }
 
+/** What each material says under the renderer that cannot draw it, in two pictures. */
+async function refusals() {
+    const said = [];
+    const rowland = new Rowland();
+    rowland.onError = ({ message }) => said.push(message);
+    const grating = { grating: { pitch_nm: 1600, profile: { type: "slit", width_nm: 800 } } };
+    const nodes = new WebGPURenderer({ forceWebGL: true });
+    await nodes.init();
+    for (const [renderer, Material] of [[nodes, GratingMaterial], [new THREE.WebGLRenderer(), GratingNodeMaterial]]) {
+        renderer.setSize(1, 1);
+        const scene = new THREE.Scene();
+        scene.add(new THREE.Mesh(new THREE.PlaneGeometry(), new Material({ rowland, grating })));
+        for (let i = 0; i < 2; ++i)
+            try {
+                renderer.render(scene, new THREE.PerspectiveCamera().translateZ(1));
+            } catch {} // WebGLRenderer has no program for a class that it does not know
+    }
+    rowland.dispose();
+    return said;
+}
+
 const errors = []; // of shaders, which three logs
 for (const kind of ["error", "warn"]) {
     const log = console[kind];
@@ -160,7 +181,7 @@ try {
         else for (const [name, by] of Object.entries(drawing)) shown[name] = await radiance(by, rowland, one);
         results.push(shown);
     }
-    await post({ results, errors });
+    await post({ results, errors: [...errors], refusals: await refusals() });
 } catch (error) {
     await post({ error: error.message + "\n" + error.stack, errors });
 }

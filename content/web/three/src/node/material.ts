@@ -75,6 +75,11 @@ export class GratingNodeMaterial extends graded(MeshPhysicalNodeMaterial) {
         this.needsUpdate = true;
     }
 
+    // WebGPURenderer does not call it.
+    override onBeforeRender(): void {
+        this.state.refuse("WebGLRenderer", "GratingNodeMaterial", "GratingMaterial of @rowland/three");
+    }
+
     override customProgramCacheKey(): string {
         return `${this.type} ${this.id} ${this._program.key} ${super.customProgramCacheKey()}`;
     }
