@@ -106,6 +106,7 @@ const CASES = [
         tolerance: BETWEEN_VIEWS },
     { name: "three's light, rigorous theory", grating: RIGOROUS, representation: "direct", frames: frames(12), method: "direct",
         lamp: { direction: unit([0.2, 0.9, -0.4]), flux: [2, 3, 1] }, tolerance: BETWEEN_VIEWS },
+    { name: "a picture", grating: CD, picture: [32, 20] },
     { name: "reference, rigorous theory", grating: RIGOROUS, representation: "reference", frames: frames(1, TILTED).slice(0, 20),
         method: "reference", shownBy: ["planar, rigorous theory", "planar"] },
 ];
@@ -204,6 +205,8 @@ const SHOWN = 0.05;
 // By three's renderers, whose compilers round differently: 3e-6 measured.
 const BETWEEN_RENDERERS = 1e-3;
 const ON_WEBGPU = "WebGPURenderer on WebGPU";
+// Of a picture: WebGPU's rows begin at the top, and differences between pixels are those of the other row of a quad: 2.6e-3 measured.
+const OTHER_ROWS = 5e-3;
 const RENDERERS = ["WebGLRenderer", "WebGPURenderer on WebGL 2", ON_WEBGPU];
 
 /** The largest difference, of which point, over the largest component of `expected`. */
@@ -234,7 +237,7 @@ for (const [probe, cases, renderers] of [["venice_sunset_256.hdr", CASES, RENDER
             for (const name of renderers) await t.test(name, { skip: name in results[0] ? false : "this Chromium offers no WebGPU adapter" }, () => {});
             for (const [i, one] of cases.entries())
                 await t.test(one.name, () => {
-                    const expected = evaluate(folder, path, one);
+                    const expected = one.picture ? results[i].WebGLRenderer : evaluate(folder, path, one);
                     let before;
                     for (const [renderer, shown] of Object.entries(results[i])) {
                         const { largest, worst, at } = worstOf(shown, expected);
@@ -243,7 +246,7 @@ for (const [probe, cases, renderers] of [["venice_sunset_256.hdr", CASES, RENDER
                         assert.ok(largest > 0 && worst < (one.tolerance ?? TOLERANCE), `${renderer}: ${worst} of the largest component`);
                         if (before) {
                             const apart = worstOf(shown, before).worst;
-                            assert.ok(apart < BETWEEN_RENDERERS, `${renderer}: ${apart} off the renderer before it`);
+                            assert.ok(apart < (one.picture && renderer === ON_WEBGPU ? OTHER_ROWS : BETWEEN_RENDERERS), `${renderer}: ${apart} off the renderer before it`);
                         }
                         before = shown;
                     }

@@ -84,6 +84,47 @@ function grooveTexture(texels) {
     return texture;
 }
 
+/** Red, green and blue of each pixel, from the left below. */
+async function pixelsOf(renderer, target) {
+    const { width, height } = target;
+    let pixels = new Float32Array(4 * width * height);
+    if (renderer.isWebGLRenderer) renderer.readRenderTargetPixels(target, 0, 0, width, height, pixels);
+    else pixels = await renderer.readRenderTargetPixelsAsync(target, 0, 0, width, height);
+    target.dispose();
+    const topFirst = renderer.backend?.isWebGPUBackend === true;
+    return Array.from({ length: width * height }, (_, i) => {
+        const row = Math.floor(i / width);
+        const at = 4 * ((topFirst ? height - 1 - row : row) * width + (i % width));
+        return [...pixels.subarray(at, at + 3)];
+    });
+}
+
+/** A tilted plane under a lamp, whose grooves vary within its pixels and from one to the next. */
+async function picture({ renderer, Plain }, rowland, { grating, picture: [width, height] }) {
+    const texels = Array.from({ length: 64 }, (_, i) => [(29 * i) % 255, i % 7 === 0 ? 0 : 128, 0, 255]);
+    const grooves = new THREE.DataTexture(Uint8Array.from(texels.flat()), 8, 8);
+    grooves.magFilter = THREE.LinearFilter;
+    const material = new Plain({ rowland, grating, grooveTexture: grooves });
+    const plane = new THREE.PlaneGeometry(2, 2);
+    plane.computeTangents();
+    const scene = new THREE.Scene();
+    const lamp = new THREE.PointLight(0xffffff, 400);
+    lamp.position.set(2, 5, 7);
+    const camera = new THREE.PerspectiveCamera(5, width / height).translateZ(15);
+    scene.add(lamp, new THREE.Mesh(plane.rotateX(-0.6), material));
+    const target = new THREE.WebGLRenderTarget(width, height, { type: THREE.FloatType });
+    await material.solved;
+    for (let i = 0; i < 2; ++i) {
+        renderer.setRenderTarget(target);
+        renderer.render(scene, camera);
+        await material.settled;
+    }
+    renderer.setRenderTarget(target);
+    renderer.render(scene, camera);
+    material.dispose();
+    return pixelsOf(renderer, target);
+}
+
 async function radiance({ renderer, Material }, rowland, { grating, representation, frames, lamp, texels, mirrored }) {
     const scene = new THREE.Scene();
     const camera = new THREE.PerspectiveCamera();
@@ -107,12 +148,9 @@ async function radiance({ renderer, Material }, rowland, { grating, representati
     draw();
     await material.settled;
     draw();
-    const size = [2 * frames.length, 2];
-    const pixels = renderer.isWebGLRenderer ? new Float32Array(4 * size[0] * size[1]) : await renderer.readRenderTargetPixelsAsync(target, 0, 0, ...size);
-    if (renderer.isWebGLRenderer) renderer.readRenderTargetPixels(target, 0, 0, ...size, pixels);
-    target.dispose();
+    const pixels = await pixelsOf(renderer, target);
     material.dispose();
-    return frames.map((_, i) => [...pixels.subarray(8 * i, 8 * i + 3)]);
+    return frames.map((_, i) => pixels[2 * i]);
 }
 
 /** Renderers by name; that on WebGPU only where the browser has it. */
@@ -120,7 +158,7 @@ async function renderersOf(names) {
     const all = {};
     for (const name of names) {
         if (name === "WebGLRenderer") {
-            all[name] = { renderer: new THREE.WebGLRenderer(), Material: PointMaterial };
+            all[name] = { renderer: new THREE.WebGLRenderer(), Material: PointMaterial, Plain: GratingMaterial };
             continue;
         }
         const forceWebGL = name.endsWith("WebGL 2");
@@ -128,7 +166,7 @@ async function renderersOf(names) {
         const renderer = new WebGPURenderer({ forceWebGL });
         await renderer.init();
         if (forceWebGL === (renderer.backend.isWebGPUBackend === true)) throw new Error(`${name}: the renderer took another back end`);
-        all[name] = { renderer, Material: PointNodeMaterial };
+        all[name] = { renderer, Material: PointNodeMaterial, Plain: GratingNodeMaterial };
     }
     return all;
 }
@@ -178,7 +216,7 @@ try {
         rowland.shared.clear();
         const shown = {};
         if (one.representation === "reference") shown.reference = await reference(rowland, one);
-        else for (const [name, by] of Object.entries(drawing)) shown[name] = await radiance(by, rowland, one);
+        else for (const [name, by] of Object.entries(drawing)) shown[name] = await (one.picture ? picture : radiance)(by, rowland, one);
         results.push(shown);
     }
     await post({ results, errors: [...errors], refusals: await refusals() });
