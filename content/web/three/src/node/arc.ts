@@ -35,20 +35,23 @@ export function arc(program: Program) {
     /** Scale and bias of each layer of the table are one after the other in table_range. */
     function table_entries(coordinates: Vec2, layer: number): Vec4 {
         const stored = program.textureLayer("packed_table", coordinates, layer);
-        return stored.mul(program.stored_vec4("table_range", int(2 * layer))).add(program.stored_vec4("table_range", int(2 * layer + 1)));
+        const [scale, bias] = [2 * layer, 2 * layer + 1].map((i) => program.stored_vec4("table_range", int(i)));
+        return stored.mul(scale).add(bias);
     }
 
     function arc_radiance(view: GrooveView): Vec3 {
         const v_g = view.map ? view.map.fade.mul(view.direction.x) : view.direction.x;
         const coordinates = table_coordinates(vec3(v_g, view.direction.yz).toVar()).toVar();
         if (program.has("PITCH_AXIS")) {
-            const pitch_scale_bias = program.vec2("pitch_scale_bias"); // from the logarithm of the pitch factor to the table's second coordinate
+            // From the logarithm of the pitch factor to the table's second coordinate.
+            const pitch_scale_bias = program.vec2("pitch_scale_bias");
             coordinates.y.assign(log(view.pitch).mul(pitch_scale_bias.x).add(pitch_scale_bias.y));
         }
         const sum = vec3(0).toVar();
         for (let j = 0; j < layers; ++j) {
             const weights = table_entries(coordinates, j).toVar();
-            sum.addAssign(vec3(dot(weights, arc_products[3 * j]), dot(weights, arc_products[3 * j + 1]), dot(weights, arc_products[3 * j + 2])));
+            const [red, green, blue] = arc_products.slice(3 * j);
+            sum.addAssign(vec3(dot(weights, red), dot(weights, green), dot(weights, blue)));
         }
         return sum;
     }

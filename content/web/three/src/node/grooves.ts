@@ -105,16 +105,23 @@ export function grooves(program: Program, inputs: GrooveInputs) {
         // The mesh's own change, as the map may be discontinuous: its moments tell how it varies.
         const across = vec2(dot(map.turn, mesh.change[0]), dot(map.turn, mesh.change[1])).toVar();
         const spread_square = dot(map.spread, vec2(u.y.mul(u.y), u.x.mul(u.x)));
-        return { mean: map.fade.mul(u.x).toVar(), square_width: dot(across, across).add(spread_square.div(BOX_VARIANCE)).toVar() };
+        return {
+            mean: map.fade.mul(u.x).toVar(),
+            square_width: dot(across, across).add(spread_square.div(BOX_VARIANCE)).toVar(),
+        };
     }
 
     function pixel_u(view: GrooveView, s: Vec3): PixelU {
         const change_g = change_along(s, view.g_change).add(view.v_g_change).toVar();
         if (!view.map)
-            return { mean: dot(s, view.axes[0]).add(view.direction.x).toVar(), square_width: dot(change_g, change_g).toVar() };
+            return {
+                mean: dot(s, view.axes[0]).add(view.direction.x).toVar(),
+                square_width: dot(change_g, change_g).toVar(),
+            };
         const { mesh } = view.map;
         const change_h = change_along(s, mesh.h_change).add(mesh.v_h_change).toVar();
-        return turned_pixel_u(view.map, { u: mesh_sum(mesh, s), change: [vec2(change_g.x, change_h.x), vec2(change_g.y, change_h.y)] });
+        const change = [vec2(change_g.x, change_h.x), vec2(change_g.y, change_h.y)] as const;
+        return turned_pixel_u(view.map, { u: mesh_sum(mesh, s), change });
     }
 
     /** For any `s` that varies from pixel to pixel. Uses derivatives: call it in uniform control flow. */
@@ -182,7 +189,8 @@ export function grooves(program: Program, inputs: GrooveInputs) {
         const v = mesh.direction;
         const axes: Mat3 = [g.mul(turn.x).add(h.mul(turn.y)).toVar(), h.mul(turn.x).sub(g.mul(turn.y)).toVar(), n];
         const direction = vec3(dot(turn, v.xy), turn.x.mul(v.y).sub(turn.y.mul(v.x)), v.z).toVar();
-        const pitch = select(moments.z.greaterThan(0), program.float("groove_pitch").mul(coverage).div(moments.z), float(0)).toVar() as Float;
+        const groove_pitch = program.float("groove_pitch"); // the smallest, over the material's
+        const pitch = select(moments.z.greaterThan(0), groove_pitch.mul(coverage).div(moments.z), float(0)).toVar() as Float;
         return { axes, direction, pitch, g_change, v_g_change, map: { mesh, turn, fade, spread, coverage, moments } };
     }
 
@@ -193,7 +201,8 @@ export function grooves(program: Program, inputs: GrooveInputs) {
 
     function groove_parts({ spread }: GrooveMapView): Int {
         const variation = spread.x.add(spread.y).toVar();
-        return select(variation.greaterThan(VARYING_MUCH), int(16), select(variation.greaterThan(VARYING), int(4), int(1))) as Int;
+        const few = select(variation.greaterThan(VARYING), int(4), int(1));
+        return select(variation.greaterThan(VARYING_MUCH), int(16), few) as Int;
     }
 
     /**
@@ -207,7 +216,8 @@ export function grooves(program: Program, inputs: GrooveInputs) {
         const at = vec2(float(column), float(part.shiftRight(bits) as Int)).add(0.5).mul(side).sub(0.5).toVar();
         const [across, down] = mesh.map_uv_change;
         const half = side.mul(0.5).toVar();
-        return mean_moments(mesh.map_uv.add(across.mul(at.x)).add(down.mul(at.y)).toVar(), [across.mul(half), down.mul(half)]);
+        const uv = mesh.map_uv.add(across.mul(at.x)).add(down.mul(at.y)).toVar();
+        return mean_moments(uv, [across.mul(half), down.mul(half)]);
     }
 
     /** One of `parts`; `view`: the whole pixel. */
@@ -228,9 +238,16 @@ export function grooves(program: Program, inputs: GrooveInputs) {
         const v_g_change = vec2(dFdx(direction.x), dFdy(direction.x)).toVar();
         if (!inputs.groove_uv) return { axes, direction, pitch: float(1), g_change, v_g_change };
         const linear = program.vec4("groove_uv_linear");
-        const uv = linear.xy.mul(inputs.groove_uv.x).add(linear.zw.mul(inputs.groove_uv.y)).add(program.vec2("groove_uv_offset")).toVar();
-        const mesh: MeshView = { axes, direction, h_change: changeOf<Vec3>(axes[1]), v_h_change: vec2(dFdx(direction.y), dFdy(direction.y)).toVar(),
-            map_uv: uv, map_uv_change: changeOf<Vec2>(uv) };
+        const { x, y } = inputs.groove_uv;
+        const uv = linear.xy.mul(x).add(linear.zw.mul(y)).add(program.vec2("groove_uv_offset")).toVar();
+        const mesh: MeshView = {
+            axes,
+            direction,
+            h_change: changeOf<Vec3>(axes[1]),
+            v_h_change: vec2(dFdx(direction.y), dFdy(direction.y)).toVar(),
+            map_uv: uv,
+            map_uv_change: changeOf<Vec2>(uv),
+        };
         return grooves_of(mesh, g_change, v_g_change, mean_moments(uv, mesh.map_uv_change).toVar());
     }
 

@@ -2,7 +2,7 @@
 import {
     abs, clamp, dot, exp, exp2, float, If, length, log2, max, min, select, sin, sqrt, vec2, vec3,
 } from "three/tsl";
-import { deviation_of, type Grooves, type PixelU } from "./grooves.js";
+import type { Grooves } from "./grooves.js";
 import type { Bool, Float, Program, Vec2, Vec3, Vec4 } from "./program.js";
 
 export interface KernelScale {
@@ -19,7 +19,8 @@ export type Kernel = ReturnType<typeof kernel>;
 
 /** d k(d u), the colour kernel smoothed by a normal distribution of u: bake/kernel_cells.h. */
 export function kernel(program: Program, { cover_transmittance }: Pick<Grooves, "cover_transmittance">) {
-    const kernel_scale_bias = program.vec4("kernel_scale_bias"); // scale and offset from u to s; deviation of u in row 0; scale of the values
+    // Scale and offset from u to s; deviation of u in row 0; scale of the values.
+    const kernel_scale_bias = program.vec4("kernel_scale_bias");
     const kernel_reach = program.vec2("kernel_reach"); // centre and half-width of the |u| where k is not 0
     const zero_order = program.has("ZERO_ORDER");
     const gaussian = program.has("LOBE_GAUSSIAN");
@@ -34,7 +35,8 @@ export function kernel(program: Program, { cover_transmittance }: Pick<Grooves, 
     function kernel_scale(): KernelScale {
         const BIAS = Math.log2(12);
         const kernel_rows = program.vec2("kernel_rows"); // scale and offset from log2(deviation of u) to t
-        return { scale_bias: kernel_scale_bias, rows: vec2(kernel_rows.x.mul(0.5), kernel_rows.y.sub(kernel_rows.x.mul(0.5 * BIAS))).toVar() };
+        const rows = vec2(kernel_rows.x.mul(0.5), kernel_rows.y.sub(kernel_rows.x.mul(0.5 * BIAS))).toVar();
+        return { scale_bias: kernel_scale_bias, rows };
     }
 
     /** The coordinate t for a box of this squared width. It may lie outside the table, which clamps it. */
@@ -44,9 +46,11 @@ export function kernel(program: Program, { cover_transmittance }: Pick<Grooves, 
         const s = u.mul(scale_bias.x).add(scale_bias.y);
         if (!program.has("KERNEL_VIEWS")) return program.textureLayer("kernel_table", vec2(s, t), layer).xyz;
         // (1 + view_coordinate()) / 2, between horizons that lie a little farther apart: no quotient 0 / 0.
-        const kernel_views = program.vec3("kernel_views"); // factors of the layer and of a view between 0 and 1, and offset, to r
+        // Factors of the layer and of a view between 0 and 1, and offset, to r.
+        const kernel_views = program.vec3("kernel_views");
         const view = clamp(v_g.sub(u.mul(0.5)).div(float(2.0001).sub(abs(u))).add(0.5), 0, 1);
-        return program.textureLod("kernel_table", vec3(s, t, kernel_views.x.mul(layer).add(view.mul(kernel_views.y)).add(kernel_views.z))).xyz;
+        const r = kernel_views.x.mul(layer).add(view.mul(kernel_views.y)).add(kernel_views.z);
+        return program.textureLod("kernel_table", vec3(s, t, r)).xyz;
     }
 
     function zero_order_value(u: Float, deviation: Float, rgb: Vec3): Vec3 {
@@ -115,8 +119,9 @@ export function kernel(program: Program, { cover_transmittance }: Pick<Grooves, 
     function normal_cdf(x: Float): Float {
         const z = abs(x).mul(Math.SQRT1_2).toVar();
         const t = float(1).div(z.mul(0.5).add(1)).toVar();
-        const p = [0.17087277, -0.82215223, 1.48851587, -1.13520398, 0.27886807, -0.18628806, 0.09678418, 0.37409196, 1.00002368, -1.26551223]
-            .reduce<Float>((sum, c) => sum.mul(t).add(c), float(0));
+        const p = [
+            0.17087277, -0.82215223, 1.48851587, -1.13520398, 0.27886807, -0.18628806, 0.09678418, 0.37409196, 1.00002368, -1.26551223,
+        ].reduce<Float>((sum, c) => sum.mul(t).add(c), float(0));
         const beyond = t.mul(0.5).mul(exp(p.sub(z.mul(z)))).toVar();
         return select(x.lessThan(0), beyond, float(1).sub(beyond)) as Float;
     }

@@ -1,10 +1,10 @@
 // modules/diffraction/shaders/key_light_windows.glsl in TSL: the probe's key lights as the CPU shades them.
 import {
-    abs, clamp, dot, exp, exp2, float, If, int, inverseSqrt, length, log2, Loop, max, min, select, sqrt, vec2, vec3, vec4,
+    abs, clamp, dot, exp, exp2, float, If, int, inverseSqrt, length, log2, max, min, select, sqrt, vec2, vec3, vec4,
 } from "three/tsl";
 import { BOX_VARIANCE, deviation_of, type Grooves, type GrooveView } from "./grooves.js";
 import type { Kernel } from "./kernel.js";
-import type { Float, Int, KeyLobe, Program, Vec2, Vec3, Vec4 } from "./program.js";
+import { loop, type Float, type KeyLobe, type Program, type Vec2, type Vec3, type Vec4 } from "./program.js";
 
 // light_blocks.h
 const LOBE_WINDOWS = 6; // on either side of the middle
@@ -88,7 +88,8 @@ function log_light({ decay, at, powers }: LightAbove, cosine: Float, z: Float, v
     const light = powers.x.add(far.mul(powers.y.add(min(far, 0).mul(powers.z.add(far.mul(powers.w))))));
     // -2 sin^2(d/2) + d^2/2 of the angle, over the variance
     const square = d.mul(d).toVar();
-    const beyond_normal = variance.mul(square).mul(square).mul(float(1 / 24).sub(variance.mul(square).mul(1 / 720))).mul(Math.LOG2E);
+    const beyond_normal = variance.mul(square).mul(square).mul(Math.LOG2E)
+        .mul(float(1 / 24).sub(variance.mul(square).mul(1 / 720)));
     return select(cosine.lessThan(1e-4), float(NO_LIGHT),
         log2(max(cosine, 1e-4)).mul(2).add(min(light, 1)).sub(decay.mul(z)).add(beyond_normal)) as Float;
 }
@@ -122,7 +123,8 @@ export function key_light_windows(program: Program, { to_tangent, pixel_u }: Gro
                 z.mul(0.5).mul(dot(nearest, vec2(lobe.turns.x.add(1), lobe.turns.y))), kernel.clamped_mean);
             // Cosine and sine of psi in a window and in the next one.
             const step = lobe.turns.zw;
-            const next = vec2(across, axis.x).mul(lobe.variance.z).add(vec2(axis.x, across.negate()).mul(lobe.variance.w)).toVar();
+            const next = vec2(across, axis.x).mul(lobe.variance.z)
+                .add(vec2(axis.x, across.negate()).mul(lobe.variance.w)).toVar();
             const psi = next.mul(step.x).add(vec2(next.y, next.x.negate()).mul(step.y)).toVar();
             const before = float(NO_LIGHT).toVar();
             const here = log_light(above, psi.x, z.mul(psi.x).toVar(), variance, float((LOBE_WINDOWS + 1) * STEP)).toVar();
@@ -134,8 +136,8 @@ export function key_light_windows(program: Program, { to_tangent, pixel_u }: Gro
             const beyond = view.pitch.mul(widest).add(scale.scale_bias.z).mul(5).toVar();
             const sums = [vec3(0).toVar(), vec3(0).toVar(), vec3(0).toVar()]; // of red, green and blue light
             const zero = vec3(0).toVar();
-            Loop({ start: -LOBE_WINDOWS, end: LOBE_WINDOWS, type: "int", condition: "<=", name: "window_index" } as never, (({ window_index }: { window_index: Int }) => {
-                const d = float(window_index).mul(STEP).toVar();
+            loop("window_index", -LOBE_WINDOWS, LOBE_WINDOWS + 1, (i) => {
+                const d = float(i).mul(STEP).toVar();
                 psi.assign(next);
                 next.assign(psi.mul(step.x).add(vec2(psi.y.negate(), psi.x).mul(step.y)));
                 before.assign(here);
@@ -154,7 +156,8 @@ export function key_light_windows(program: Program, { to_tangent, pixel_u }: Gro
                     const narrower = inverseSqrt(narrowing).toVar();
                     const within = narrower.mul(narrower).mul(WITHIN).toVar();
                     const slope = rise.add(fall).mul(0.5 / STEP).toVar(); // of log2
-                    const shift = clamp(slope.mul(within).mul(Math.LN2), -1.5 * Math.sqrt(WITHIN), 1.5 * Math.sqrt(WITHIN)).toVar();
+                    const farthest = 1.5 * Math.sqrt(WITHIN);
+                    const shift = clamp(slope.mul(within).mul(Math.LN2), -farthest, farthest).toVar();
                     const growth = min(slope.mul(slope).mul(within).mul(0.5 * Math.LN2), 1.7);
                     const light = exp2(here.add(growth).sub(d.mul(d).mul(0.5 / (Math.LN2 * (1 - WITHIN))))).mul(narrower).toVar();
                     // Mean and variance of sin psi.
@@ -173,7 +176,7 @@ export function key_light_windows(program: Program, { to_tangent, pixel_u }: Gro
                         sums.forEach((sum, c) => sum.addAssign(kernel_texel(scale, centre, from, row, c).mul(light)));
                     });
                 });
-            }) as never);
+            });
             // The norm of the windows and, for concentrations of 3 and more, of the lobe's density.
             const norm = float(STEP / Math.sqrt(1 - WITHIN) / (2 * Math.PI)).div(deviation);
             const along = kernel.spread_along_grooves(mean, lobe.moments);
@@ -185,9 +188,8 @@ export function key_light_windows(program: Program, { to_tangent, pixel_u }: Gro
 
     function key_lights_radiance(view: GrooveView): Vec3 {
         const sum = vec3(0).toVar();
-        Loop({ start: 0, end: int(program.vec4("key_lobe_count").x), type: "int", condition: "<", name: "key_light" } as never, (({ key_light }: { key_light: Int }) => {
-            add_key_lobe_radiance(program.key_lobe(key_light), view, sum);
-        }) as never);
+        const count = int(program.vec4("key_lobe_count").x);
+        loop("key_light", 0, count, (i) => add_key_lobe_radiance(program.key_lobe(i), view, sum));
         return sum;
     }
 

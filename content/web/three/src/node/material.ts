@@ -1,6 +1,7 @@
 import type { BufferGeometry, Mesh, Object3D, Scene } from "three";
 import {
-    cameraWorldMatrix, diffuseColor, float, isolate, materialEnvIntensity, min, normalView, OnObjectUpdate, positionViewDirection, vec3, vec4,
+    cameraWorldMatrix, diffuseColor, float, isolate, materialEnvIntensity, min, normalView, OnObjectUpdate,
+    positionViewDirection, vec3, vec4,
 } from "three/tsl";
 import { EnvironmentNode, MeshPhysicalNodeMaterial, PhysicalLightingModel, type Node, type NodeBuilder } from "three/webgpu";
 import { graded, type GratingParameters } from "../graded.js";
@@ -22,7 +23,8 @@ class GratingLightingModel extends PhysicalLightingModel {
     mirrored: Vec3 = vec3(0);
 
     constructor(private readonly surface: Surface, layer: MeshPhysicalNodeMaterial) {
-        super(layer.useClearcoat, layer.useSheen, layer.useIridescence, layer.useAnisotropy, layer.useTransmission, layer.useDispersion);
+        super(layer.useClearcoat, layer.useSheen, layer.useIridescence, layer.useAnisotropy, layer.useTransmission,
+            layer.useDispersion);
     }
 
     override direct(light: Parameters<PhysicalLightingModel["direct"]>[0], builder: NodeBuilder): void {
@@ -43,10 +45,13 @@ class GratingLightingModel extends PhysicalLightingModel {
 class MirroredEnvironment extends EnvironmentNode {
     override setup(builder: NodeBuilder): null {
         super.setup(builder);
-        const { _pmremNode, envNode } = this as unknown as { _pmremNode: Vec3 | null; envNode: Vec3 }; // the filtered texture; a node of the page's
+        // Of a texture, its filtered levels; else a node of the page's.
+        const { _pmremNode, envNode } = this as unknown as { _pmremNode: Vec3 | null; envNode: Vec3 };
         const direction = positionViewDirection.negate().reflect(normalView).transformDirection(cameraWorldMatrix);
-        const radiance = (_pmremNode ?? envNode).context({ getUV: () => direction, getTextureLevel: () => float(0) }) as unknown as Vec3;
-        building(builder).context.lightingModel.mirrored = isolate(radiance.mul(materialEnvIntensity)) as unknown as Vec3;
+        const sharp = { getUV: () => direction, getTextureLevel: () => float(0) };
+        const radiance = (_pmremNode ?? envNode).context(sharp) as unknown as Vec3;
+        const { lightingModel } = building(builder).context;
+        lightingModel.mirrored = isolate(radiance.mul(materialEnvIntensity)) as unknown as Vec3;
         return null;
     }
 }
@@ -113,7 +118,8 @@ export class GratingNodeMaterial extends graded(MeshPhysicalNodeMaterial) {
         const light = (super.setupLighting(builder) as Vec3).toVar();
         // Without lights and environment three has asked for no lighting model.
         if (this._surface) light.addAssign(grating.grating_surface(vec3(0), vec3(0)));
-        if (!this.isUnclamped) light.subAssign(min(min(light.x, light.y), min(light.z, 0))); // as GratingMaterial: colours outside the screen's gamut
+        // Colours outside the screen's gamut are desaturated until no component is negative.
+        if (!this.isUnclamped) light.subAssign(min(min(light.x, light.y), min(light.z, 0)));
         return (this._light = light);
     }
 

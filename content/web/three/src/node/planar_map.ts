@@ -7,7 +7,7 @@ function turns(y: Float, x: Float): Float {
     const longer = max(abs(x), abs(y));
     const t = min(abs(x), abs(y)).div(max(longer, 1e-30)).toVar();
     const s = t.mul(t).toVar();
-    const eighth = t.mul(s.mul(0.0033174).sub(0.0135527).mul(s).add(0.028673).mul(s).sub(0.0525696).mul(s).add(0.1591337)).toVar();
+    const eighth = s.mul(0.0033174).sub(0.0135527).mul(s).add(0.028673).mul(s).sub(0.0525696).mul(s).add(0.1591337).mul(t).toVar();
     const quarter = select(abs(y).greaterThan(abs(x)), float(0.25).sub(eighth), eighth).toVar() as Float;
     const half_turn = select(x.lessThan(0), float(0.5).sub(quarter), quarter).toVar() as Float;
     return select(y.lessThan(0), half_turn.negate(), half_turn) as Float;
@@ -37,7 +37,8 @@ export function planar_map(program: Program) {
     }
 
     function map_radiance_of_pitch(v_g: Float, g: Vec3, pitch: Float): Vec3 {
-        const pitch_scale_bias = program.vec2("pitch_scale_bias"); // from the logarithm of the pitch factor to the map's third coordinate
+        // From the logarithm of the pitch factor to the map's third coordinate.
+        const pitch_scale_bias = program.vec2("pitch_scale_bias");
         const slice = log(pitch).mul(pitch_scale_bias.x).add(pitch_scale_bias.y);
         return map_scale.mul(program.textureLod("planar_map", vec3(planar_map_uv(v_g, g), slice)).xyz);
     }

@@ -1,5 +1,5 @@
 import type { Data3DTexture, DataArrayTexture, Matrix3, Texture, Vector2, Vector3, Vector4 } from "three";
-import { float, int, ivec2, texture, texture3D, uniform, uniformArray } from "three/tsl";
+import { float, int, ivec2, Loop, texture, texture3D, uniform, uniformArray } from "three/tsl";
 import type { GratingState } from "../grating_state.js";
 import type { Node, TextureNode, UniformNode } from "three/webgpu";
 
@@ -23,6 +23,11 @@ interface Slot {
 const kindOf = (value: Value) =>
     (value as Data3DTexture).isData3DTexture ? "volume" : (value as DataArrayTexture).isDataArrayTexture ? "array"
         : (value as Texture).isTexture ? "plane" : "numbers";
+
+/** for (int name = start; name < end; ++name) body(name). Loops within loops need names of their own. */
+export function loop(name: string, start: number, end: number | Int, body: (i: Int) => void): void {
+    Loop({ name, start, end, type: "int", condition: "<" } as never, ((inputs: Record<string, Int>) => body(inputs[name])) as never);
+}
 
 /**
  * The defines and uniforms of the GLSL for the functions of this folder, which are its functions by the same names: an
@@ -67,7 +72,8 @@ export class Program {
     mat3 = (name: string) => this.numbers<"mat3">(name);
 
     private texture(name: string): TextureNode {
-        return this.node(name, (value) => (kindOf(value) === "volume" ? texture3D(value) : texture(value)).setName(name) as never);
+        return this.node(name, (value) =>
+            (kindOf(value) === "volume" ? texture3D(value) : texture(value)).setName(name) as never);
     }
     /** textureLod() at level 0 of sampler2D and, with three coordinates, of sampler3D. */
     textureLod(name: string, uv: Vec2 | Vec3): Vec4 {
@@ -94,7 +100,8 @@ export class Program {
         return Object.fromEntries(MEMBERS.map((name, member) => [name, at(member)])) as unknown as KeyLobe;
     }
     private lobeVectors(): Vector4[] {
-        return (this.state.values.key_lobes.value as Record<string, Vector4>[]).flatMap((lobe) => MEMBERS.map((name) => lobe[name]));
+        const lobes = this.state.values.key_lobes.value as Record<string, Vector4>[];
+        return lobes.flatMap((lobe) => MEMBERS.map((name) => lobe[name]));
     }
 
     /** Gives the nodes the uniforms' present values. */

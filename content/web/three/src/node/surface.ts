@@ -1,6 +1,6 @@
 // src/glsl/surface.vert.glsl and src/glsl/surface.frag.glsl in TSL: the diffraction term for MeshPhysicalNodeMaterial.
 import {
-    abs, attribute, cameraPosition, cross, determinant, dot, float, If, Loop, mat3, max, modelNormalMatrix, modelWorldMatrix,
+    abs, attribute, cameraPosition, cross, determinant, dot, float, If, mat3, max, modelNormalMatrix, modelWorldMatrix,
     normalize, normalLocal, positionLocal, positionWorld, select, uv, varying, vec3, vec4,
 } from "three/tsl";
 import type { BufferGeometry } from "three";
@@ -9,7 +9,7 @@ import { deviation_of, grooves, type GrooveInputs, type GrooveView, type PixelU 
 import { kernel } from "./kernel.js";
 import { key_light_windows } from "./key_light_windows.js";
 import { planar_map } from "./planar_map.js";
-import type { Float, Int, Program, Vec2, Vec3, Vec4 } from "./program.js";
+import { loop, type Float, type Int, type Program, type Vec2, type Vec3, type Vec4 } from "./program.js";
 
 /**
  * What grooves.ts reads from the vertices. The grating vector points along the mesh's tangent or away from the object's
@@ -18,7 +18,8 @@ import type { Float, Int, Program, Vec2, Vec3, Vec4 } from "./program.js";
 function pass_grooves(program: Program, geometry: BufferGeometry): GrooveInputs {
     const tangent: Vec4 = geometry.hasAttribute("tangent") ? attribute("tangent", "vec4") : vec4(0, 0, 0, 1);
     const world_normal = normalize(modelNormalMatrix.mul(normalLocal)) as Vec3;
-    const across = program.has("ROWLAND_RADIAL") ? positionLocal.sub(normalLocal.mul(dot(positionLocal, normalLocal))) : tangent.xyz;
+    const across = program.has("ROWLAND_RADIAL")
+        ? positionLocal.sub(normalLocal.mul(dot(positionLocal, normalLocal))) : tangent.xyz;
     // A mirroring transform inverts the cross product.
     const hand = select(determinant(mat3(modelWorldMatrix)).lessThan(0), tangent.w.negate(), tangent.w) as Float;
     const g = modelWorldMatrix.mul(vec4(across, 0)).xyz as Vec3;
@@ -28,8 +29,12 @@ function pass_grooves(program: Program, geometry: BufferGeometry): GrooveInputs 
     const passed = varying(vec4(world_grating, hand)) as Vec4;
     const channel = program.text("ROWLAND_GROOVE_UV");
     return {
-        eye: cameraPosition, world_position: positionWorld, world_normal: varying(world_normal) as Vec3, world_grating: passed.xyz,
-        groove_uv: channel ? (uv(channel === "uv" ? 0 : 1) as Vec2) : undefined, groove_hand: passed.w,
+        eye: cameraPosition,
+        world_position: positionWorld,
+        world_normal: varying(world_normal) as Vec3,
+        world_grating: passed.xyz,
+        groove_uv: channel ? (uv(channel === "uv" ? 0 : 1) as Vec2) : undefined,
+        groove_hand: passed.w,
     };
 }
 
@@ -38,9 +43,10 @@ export type Surface = ReturnType<typeof surface>;
 /** Call it, as its functions, where statements are added to a fragment's graph. */
 export function surface(program: Program, geometry: BufferGeometry) {
     const groove = grooves(program, pass_grooves(program, geometry));
+    const colours = kernel(program, groove);
     const { cover_transmittance } = groove;
-    const { groove_factor, kernel_to_working, pitch_kernel_value, ...rest } = kernel(program, groove);
-    const key_lights = key_light_windows(program, groove, { groove_factor, kernel_to_working, pitch_kernel_value, ...rest });
+    const { groove_factor, kernel_to_working, pitch_kernel_value } = colours;
+    const key_lights = key_light_windows(program, groove, colours);
     const planar = program.has("ROWLAND_PLANAR") ? planar_map(program) : undefined;
     const table = program.has("ROWLAND_ARC") ? arc(program) : undefined;
 
@@ -61,16 +67,17 @@ export function surface(program: Program, geometry: BufferGeometry) {
 
     /** Calls `shade` for each part. */
     function for_parts(shade: (view: GrooveView) => void): void {
-        Loop({ start: 0, end: lit_parts!, type: "int", condition: "<", name: "groove_part" } as never,
-            (({ groove_part }: { groove_part: Int }) => shade(lit_part(groove_part))) as never);
+        loop("groove_part", 0, lit_parts!, (part) => shade(lit_part(part)));
     }
 
     /** `factor` times the radiance is added to `sum`. */
     function add_lamp_radiance(sum: Vec3, view: GrooveView, u: PixelU, s: Vec3, irradiance: Vec3, factor?: Float): void {
         If(view.direction.z.greaterThan(0), () => {
             const above = max(dot(s, view.axes[2]), 0).toVar();
-            const dimmed = groove_factor(dot(s, view.axes[1]).add(view.direction.y).toVar()).mul(above.mul(0.5).mul(cover_transmittance(above)));
-            const value = kernel_to_working(dimmed.mul(pitch_kernel_value(u.mean, view.direction.x, deviation_of(u).toVar(), irradiance, view.pitch)));
+            const sum_h = dot(s, view.axes[1]).add(view.direction.y).toVar();
+            const factor_h = groove_factor(sum_h).mul(above.mul(0.5).mul(cover_transmittance(above)));
+            const deviation = deviation_of(u).toVar();
+            const value = kernel_to_working(factor_h.mul(pitch_kernel_value(u.mean, view.direction.x, deviation, irradiance, view.pitch)));
             sum.addAssign(factor ? value.mul(factor) : value);
         });
     }
@@ -79,7 +86,8 @@ export function surface(program: Program, geometry: BufferGeometry) {
     function add_lamp(s: Vec3, irradiance: Vec3): void {
         if (!lit_view.map) return add_lamp_radiance(lit_sum, lit_view, groove.pixel_u_of(lit_view, s), s, irradiance);
         const mesh = groove.mesh_u_of(lit_view.map, s);
-        for_parts((view) => add_lamp_radiance(lit_sum, view, groove.turned_pixel_u(view.map!, mesh), s, irradiance, coverage_of(view)));
+        for_parts((view) =>
+            add_lamp_radiance(lit_sum, view, groove.turned_pixel_u(view.map!, mesh), s, irradiance, coverage_of(view)));
     }
 
     function add_probe_radiance(total: Vec3, view: GrooveView, factor?: Float): void {
@@ -101,7 +109,8 @@ export function surface(program: Program, geometry: BufferGeometry) {
         const passed = cover_transmittance(abs(lit_view.direction.z)).toVar();
         if (program.has("ROWLAND_DIFFRACTION_ONLY")) return passed.mul(diffracted);
         const mirror_weight = program.vec3("mirror_weight");
-        const mirror = program.has("COVER") ? vec3(float(1).sub(passed)).add(mirror_weight.mul(passed.mul(passed))) : mirror_weight;
+        const mirror = program.has("COVER")
+            ? vec3(float(1).sub(passed)).add(mirror_weight.mul(passed.mul(passed))) : mirror_weight;
         return passed.mul(base.mul(program.vec3("base_weight")).add(diffracted)).add(mirror.mul(mirrored));
     }
 
