@@ -416,6 +416,14 @@ export class GratingState {
         if (!(this.values.probe_from_world?.value as Matrix3 | undefined)?.equals(surface.toProbe)) this.put("probe_from_world", surface.toProbe.clone());
     }
 
+    /** Says once that a renderer cannot draw the owner, and what it can. */
+    refuse(renderer: string, owner: string, remedy: string): void {
+        const message = `${renderer} cannot draw ${owner}; expected ${remedy}`;
+        if (this.rowland) return this.tell(message);
+        if (!this.told.has(message)) console.error(new Error(message));
+        this.told.add(message);
+    }
+
     /** Whether reference() shows its grooves: not those of a texture, which vary within a pixel. */
     get hasReference(): boolean {
         return this.grooveTexture === undefined;

@@ -23,6 +23,14 @@ export class GratingMaterial extends graded(MeshPhysicalMaterial) {
 
     constructor(parameters: GratingParameters = {}) {
         super(parameters);
+        const { state } = this;
+        // WebGPURenderer draws a copy of its own class with the members of this one, and calls this for the copy's graph.
+        Object.assign(this, {
+            setupOutgoingLight(this: object): unknown {
+                state.refuse("WebGPURenderer", "GratingMaterial", "GratingNodeMaterial of @rowland/three/webgpu");
+                return Object.getPrototypeOf(this).setupOutgoingLight.call(this);
+            },
+        });
     }
 
     /** @internal */

@@ -56,9 +56,15 @@ function serve(task, files, folder, headers, requests, onResult, onCommand) {
     return new Promise((resolve) => server.listen(0, "127.0.0.1", () => resolve(server)));
 }
 
-/** What the page posts to /result. `headers`: those of a path, beside its type; `requests` gets the paths that are asked for. */
+/** Chromium's flags for WebGPU without a GPU. */
+const WEBGPU = ["--enable-unsafe-webgpu", "--use-webgpu-adapter=swiftshader", "--enable-features=Vulkan", "--use-vulkan=swiftshader"];
+
+/**
+ * What the page posts to /result. `headers`: those of a path, beside its type; `requests` gets the paths that are asked for;
+ * `webgpu`: the page may use it.
+ */
 export async function resultOf(page, task, { files = {}, folder = packageFolder, headers = () => ({}), seconds = 240, size = "800,600",
-    requests = [] } = {}) {
+    requests = [], webgpu = false } = {}) {
     let server, browser, tools, timer;
     const profile = mkdtempSync(join(tmpdir(), "rowland-chromium-"));
     try {
@@ -66,7 +72,7 @@ export async function resultOf(page, task, { files = {}, folder = packageFolder,
             server = await serve(task, files, folder, headers, requests, resolve, (command) => tools.command(command));
             timer = setTimeout(() => reject(new Error(`no result of ${page} in ${seconds} s`)), 1000 * seconds);
             browser = spawn(chromium(), ["--headless=new", "--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader",
-                "--enable-unsafe-swiftshader", "--remote-debugging-pipe", `--window-size=${size}`, `--user-data-dir=${profile}`,
+                "--enable-unsafe-swiftshader", ...(webgpu ? WEBGPU : []), "--remote-debugging-pipe", `--window-size=${size}`, `--user-data-dir=${profile}`,
                 `http://127.0.0.1:${server.address().port}/${page}`], { stdio: ["ignore", "ignore", "ignore", "pipe", "pipe"], detached: true });
             tools = new DevTools(browser);
             browser.on("error", reject);

@@ -25,14 +25,15 @@ test("the page and the examples compile", { skip: missing }, () => {
     const folder = mkdtempSync(join(tmpdir(), "rowland-types-"));
     try {
         writeFileSync(join(folder, "react.d.ts"), REACT);
-        const examples = ["disc.js", "gltf.js", "fiber.jsx"].map((name) => `${top}content/web/three/examples/${name}`);
+        const examples = ["disc.js", "webgpu.js", "gltf.js", "fiber.jsx"].map((name) => `${top}content/web/three/examples/${name}`);
         writeFileSync(join(folder, "tsconfig.json"), JSON.stringify({
             extends: here + "tsconfig.json",
             compilerOptions: {
                 noEmit: true, declaration: false, rootDir: "/", lib: ["ES2022", "DOM", "DOM.Iterable"], resolveJsonModule: true,
                 allowJs: true, checkJs: true, jsx: "preserve", noImplicitAny: false, strictNullChecks: true, types: [],
-                paths: { "@rowland/three": [here + "dist/index.d.ts"], "three": [here + "node_modules/@types/three"],
-                    "three/*": [here + "node_modules/@types/three/*"] },
+                paths: { "@rowland/three": [here + "dist/index.d.ts"], "@rowland/three/webgpu": [here + "dist/webgpu.d.ts"],
+                    "three": [here + "node_modules/@types/three"], "three/webgpu": [here + "node_modules/@types/three/build/three.webgpu"],
+                    "three/tsl": [here + "node_modules/@types/three/build/three.tsl"], "three/*": [here + "node_modules/@types/three/*"] },
             },
             include: [], files: [join(folder, "react.d.ts"), `${top}content/web/page/page.ts`, ...examples],
         }));

@@ -1,0 +1,16 @@
+import * as THREE from "three/webgpu";
+import { GratingNodeMaterial, Rowland } from "@rowland/three/webgpu";
+
+const renderer = new THREE.WebGPURenderer({ antialias: true });
+renderer.setSize(innerWidth, innerHeight);
+document.body.append(renderer.domElement);
+const scene = new THREE.Scene();
+const camera = new THREE.PerspectiveCamera(35, innerWidth / innerHeight, 0.01, 10);
+camera.position.set(0, 0.15, 0.2);
+camera.lookAt(0, 0, 0);
+const rowland = new Rowland();
+const cd = { grating: { pitch_nm: 1600, profile: { type: "lamellar", duty: 0.35, depth_nm: 90 } }, metal: "Al", cover: { ior: 1.58 } };
+scene.add(new THREE.Mesh(new THREE.RingGeometry(0.02, 0.06, 128, 8).rotateX(-1.2), new GratingNodeMaterial({ rowland, grating: cd })));
+const texels = new Float32Array(4 * 64 * 32).fill(0.5).fill(60, 4 * 64 * 24 + 80, 4 * 64 * 24 + 92); // a lamp in a grey room
+await rowland.setProbe(new THREE.DataTexture(texels, 64, 32, THREE.RGBAFormat, THREE.FloatType));
+renderer.setAnimationLoop(() => renderer.render(scene, camera));
