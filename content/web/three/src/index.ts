@@ -1,4 +1,5 @@
 export { GratingMaterial, type GratingParameters, type Representation } from "./material.js";
 export { GratingExtension } from "./gltf.js";
-export { Rowland, type Efficiencies } from "./rowland.js";
+export { Rowland } from "./probe.js";
+export type { Efficiencies, Panorama } from "./rowland.js";
 export type { Grooves } from "./frames.js";

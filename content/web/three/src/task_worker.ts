@@ -13,7 +13,7 @@ export class TaskWorker {
             if (!this.busy) setTimeout(() => this.busy || onIdle());
         };
         worker.onerror = (event) => {
-            const error = new Error(event.message || "the worker of @rowland/three did not start");
+            const error = new Error(event.message || "a worker of Rowland did not start");
             for (const waiting of this.waiting.values()) waiting.reject(error);
             this.waiting.clear();
         };

@@ -1,0 +1,4 @@
+// Inserted before main() of Babylon's fragment shader.
+uniform mat3 to_probe;
+#define eye (to_probe * vEyePosition.xyz)
+#include "content/web/three/src/glsl/grating.frag.glsl"

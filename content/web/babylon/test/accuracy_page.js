@@ -1,0 +1,22 @@
+import { Engine } from "@babylonjs/core/Engines/engine.js";
+import { RGBE_ReadHeader, RGBE_ReadPixels } from "@babylonjs/core/Misc/HighDynamicRange/hdr.js";
+import { Rowland } from "../dist/babylon/src/index.js";
+import { radiance } from "./points.js";
+
+const errors = [];
+console.error = (...words) => errors.push(words.join(" ").slice(0, 2000)); // of programs that do not compile
+const post = (value) => fetch("/result", { method: "POST", body: JSON.stringify(value) });
+try {
+    const { probe, keyLights, cases } = await (await fetch("/task")).json();
+    const engine = new Engine(document.querySelector("canvas"), false);
+    const rowland = new Rowland();
+    rowland.onError = (error) => post({ error: error.message });
+    const bytes = new Uint8Array(await (await fetch(probe)).arrayBuffer());
+    const header = RGBE_ReadHeader(bytes);
+    await rowland.setProbe({ ...header, texels: RGBE_ReadPixels(bytes, header) }, { keyLights });
+    const results = [];
+    for (const one of cases) results.push(await radiance(engine, rowland, one));
+    await post({ results, error: errors[0] });
+} catch (error) {
+    await post({ error: error.message + "\n" + error.stack });
+}

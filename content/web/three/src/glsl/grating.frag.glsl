@@ -1,0 +1,111 @@
+// The diffraction term over another layer, for the fragment stage of an engine. The engine's file defines `eye`, in the
+// probe's space as the inputs are, and calls prepare_grooves(), add_lamp() for each light and grating_surface().
+#define SEPARATE_LIGHTS
+#define KEY_LOBES
+#define SHOWN_LAYERS LAYERS
+#include "engine/gpu/shaders/dialect.glsl"
+in vec3 world_position;
+in vec3 world_normal;
+#ifdef ROWLAND_GROOVE_UV
+in vec2 groove_uv;
+#define GROOVE_MAP groove_uv
+#endif
+uniform mat3 xyz_to_working;  // linear Rec.709
+uniform vec3 mirror_weight;
+uniform vec3 base_weight;
+uniform float light_scale;  // of the probe
+#include "modules/diffraction/shaders/grooves.glsl"
+#include "modules/diffraction/shaders/kernel.glsl"
+#include "modules/diffraction/shaders/light_blocks.h"
+#include "modules/diffraction/shaders/key_light_windows.glsl"
+#ifdef ROWLAND_PLANAR
+#include "modules/diffraction/representations/planar/planar_map.glsl"
+#endif
+#ifdef ROWLAND_ARC
+#include "modules/diffraction/representations/arc/arc.glsl"
+#endif
+
+GrooveView lit_view;
+vec3 lit_sum;  // diffracted radiance of the engine's lights
+#ifdef GROOVE_MAP
+int lit_parts;  // parts of a pixel whose grooves vary
+#endif
+
+void prepare_grooves() {
+    lit_view = groove_view();
+    lit_sum = vec3(0.0);
+#ifdef GROOVE_MAP
+    lit_parts = groove_parts(lit_view);
+#endif
+}
+
+#ifdef GROOVE_MAP
+GrooveView lit_part(int part) {
+    GrooveView view = groove_part(lit_view, lit_parts, part);
+    if (view.pitch <= 0.0) view.direction.z = 0.0;  // no grating: as if seen from below
+    return view;
+}
+
+float coverage_of(GrooveView view) { return view.coverage / float(lit_parts); }
+#endif
+
+vec3 lamp_radiance(GrooveView view, PixelU u, vec3 s, vec3 irradiance) {
+    if (view.direction.z <= 0.0) return vec3(0.0);
+    float above = max(dot(s, view.axes[2]), 0.0);
+    vec3 factor = 0.5 * above * cover_transmittance(above) *
+                  groove_factor(dot(s, view.axes[1]) + view.direction.y);
+    return kernel_to_working(factor * pitch_kernel_value(u.mean, view.direction.x, deviation_of(u), irradiance, view.pitch));
+}
+
+// Adds one of the engine's lights. `s`: toward it; `irradiance`: on a surface that faces it.
+void add_lamp(vec3 s, vec3 irradiance) {
+#ifdef GROOVE_MAP
+    MeshU mesh = mesh_u_of(lit_view, s);
+    for (int part = 0; part < lit_parts; ++part) {
+        GrooveView view = lit_part(part);
+        lit_sum += coverage_of(view) * lamp_radiance(view, turned_pixel_u(view, mesh), s, irradiance);
+    }
+#else
+    lit_sum += lamp_radiance(lit_view, pixel_u_of(lit_view, s), s, irradiance);
+#endif
+}
+
+vec3 probe_radiance(GrooveView view) {
+    if (view.direction.z <= 0.0) return vec3(0.0);
+    vec3 sum = vec3(0.0);
+#if defined(ROWLAND_PLANAR) && defined(LOBE_MAP)
+    sum += map_radiance(view.direction.xy, view.axes[0]);
+#elif defined(ROWLAND_PLANAR) && defined(PITCH_AXIS)
+    sum += map_radiance_of_pitch(view.direction.x, view.axes[0], view.pitch);
+#elif defined(ROWLAND_PLANAR)
+    sum += map_radiance(view.direction.x, view.axes[0], view.axes[2]);
+#endif
+#ifdef ROWLAND_ARC
+    sum += arc_radiance(view);
+#endif
+    sum += key_lights_at_pixel(view);
+    return light_scale * sum;
+}
+
+// `base`: what the layer under the grooves reflects; `mirrored`: the environment in the mirror direction.
+vec3 grating_surface(vec3 base, vec3 mirrored) {
+    vec3 diffracted = lit_sum;
+#ifdef GROOVE_MAP
+    for (int part = 0; part < lit_parts; ++part) {
+        GrooveView view = lit_part(part);
+        diffracted += coverage_of(view) * probe_radiance(view);
+    }
+#else
+    diffracted += probe_radiance(lit_view);
+#endif
+    float passed = cover_transmittance(abs(lit_view.direction.z));
+#ifdef ROWLAND_DIFFRACTION_ONLY
+    return passed * diffracted;
+#endif
+#ifdef COVER
+    vec3 mirror = vec3(1.0 - passed) + passed * passed * mirror_weight;
+#else
+    vec3 mirror = mirror_weight;
+#endif
+    return passed * (base_weight * base + diffracted) + mirror * mirrored;
+}
