@@ -113,6 +113,7 @@ function textureOf(value: TableTexture | VectorTexture, scene: Scene): Texture {
 export class GratingPlugin extends MaterialPluginBase {
     readonly state: GratingState;
     private readonly textures = new Map<string, Texture>();
+    private stale = false;
     private surface?: { mesh: AbstractMesh; surface: MeshSurface };
 
     constructor(private readonly material: PBRMaterial, private readonly settings: GratingOptions) {
@@ -120,7 +121,7 @@ export class GratingPlugin extends MaterialPluginBase {
         this.doNotSerialize = true; // without its workers it would show nothing
         this.registerForExtraEvents = true; // hardBindForSubMesh
         this._enable(true);
-        this.state = new GratingState(settings.rowland, (name) => this.put(name), () => this.markAllDefinesAsDirty(), (colour, roughness) => {
+        this.state = new GratingState(settings.rowland, (name) => this.put(name), () => this.refresh(), (colour, roughness) => {
             Object.assign(material, { albedoColor: Color3.FromArray(colour), roughness, metallic: 0 });
         });
         this.state.representation = settings.representation;
@@ -136,6 +137,12 @@ export class GratingPlugin extends MaterialPluginBase {
         if (typeof value !== "object" || !("kind" in value)) return;
         this.textures.get(name)?.dispose();
         this.textures.set(name, textureOf(value, this.material.getScene()));
+    }
+
+    /** Asks for another program. While a glTF loads, Babylon ignores this. */
+    private refresh(): void {
+        this.stale = this.material.getScene().blockMaterialDirtyMechanism;
+        if (!this.stale) this.markAllDefinesAsDirty();
     }
 
     private groovesOf(mesh: AbstractMesh): Grooves {
@@ -170,6 +177,7 @@ export class GratingPlugin extends MaterialPluginBase {
         const probe = () => toProbe(scene, material.reflectionTexture ?? scene.environmentTexture);
         if (this.surface?.mesh !== mesh) this.surface = { mesh, surface: new MeshSurface(mesh, this.groovesOf(mesh), probe) };
         state.see(this.surface.surface);
+        if (this.stale) this.refresh();
         const effect = subMesh.effect;
         if (!effect || !state.options.get("ROWLAND")) return;
         effect.setMatrix3x3("to_probe", Float32Array.from(probe()));

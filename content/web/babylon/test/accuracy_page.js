@@ -1,6 +1,5 @@
 import { Engine } from "@babylonjs/core/Engines/engine.js";
-import { RGBE_ReadHeader, RGBE_ReadPixels } from "@babylonjs/core/Misc/HighDynamicRange/hdr.js";
-import { Rowland } from "../dist/babylon/src/index.js";
+import { readPanorama, Rowland } from "../dist/babylon/src/index.js";
 import { radiance } from "./points.js";
 
 const errors = [];
@@ -11,9 +10,7 @@ try {
     const engine = new Engine(document.querySelector("canvas"), false);
     const rowland = new Rowland();
     rowland.onError = (error) => post({ error: error.message });
-    const bytes = new Uint8Array(await (await fetch(probe)).arrayBuffer());
-    const header = RGBE_ReadHeader(bytes);
-    await rowland.setProbe({ ...header, texels: RGBE_ReadPixels(bytes, header) }, { keyLights });
+    await rowland.setProbe(await readPanorama(probe), { keyLights });
     const results = [];
     for (const one of cases) results.push(await radiance(engine, rowland, one));
     await post({ results, error: errors[0] });
