@@ -2,7 +2,7 @@ import {
     DataTexture, DataUtils, EquirectangularReflectionMapping, FloatType, HalfFloatType, LinearFilter, RGBAFormat, type Texture, type WebGLRenderer,
 } from "three";
 import { EXRLoader } from "three/examples/jsm/loaders/EXRLoader.js";
-import { RGBELoader } from "three/examples/jsm/loaders/RGBELoader.js";
+import { HDRLoader } from "three/examples/jsm/loaders/HDRLoader.js";
 
 /** A lamp on the sphere: its direction and size in degrees, its radiance. */
 interface Box {
@@ -70,7 +70,7 @@ export function builtInLight(name: string, width = 512): DataTexture {
 export async function lightOf(file: File): Promise<Texture> {
     const extension = file.name.slice(file.name.lastIndexOf(".")).toLowerCase();
     if (extension !== ".hdr" && extension !== ".exr") throw new Error(`${file.name}: expected a panorama, .hdr or .exr`);
-    const loader = extension === ".exr" ? new EXRLoader() : new RGBELoader();
+    const loader = extension === ".exr" ? new EXRLoader() : new HDRLoader();
     loader.setDataType(FloatType);
     let image: { data?: ArrayLike<number>; width?: number; height?: number } | undefined;
     try {

@@ -1,5 +1,5 @@
 import * as THREE from "three";
-import { RGBELoader } from "three/examples/jsm/loaders/RGBELoader.js";
+import { HDRLoader } from "three/examples/jsm/loaders/HDRLoader.js";
 import { GratingMaterial, Rowland } from "@rowland/three";
 
 const renderer = new THREE.WebGLRenderer({ antialias: true });
@@ -13,7 +13,7 @@ camera.lookAt(0, 0, 0);
 const rowland = new Rowland();
 const cd = { grating: { pitch_nm: 1600, profile: { type: "lamellar", duty: 0.35, depth_nm: 90 } }, metal: "Al", cover: { ior: 1.58 } };
 scene.add(new THREE.Mesh(new THREE.RingGeometry(0.02, 0.06, 128, 8).rotateX(-1.2), new GratingMaterial({ rowland, grating: cd })));
-const light = new THREE.DataTexture(new Float32Array(4 * 64 * 32).fill(0.5), 64, 32, THREE.RGBAFormat, THREE.FloatType);
-light.image.data.fill(60, 4 * 64 * 24 + 80, 4 * 64 * 24 + 92); // a lamp; or: await new RGBELoader().loadAsync("sunset.hdr")
-await rowland.setProbe(light);
+const texels = new Float32Array(4 * 64 * 32).fill(0.5).fill(60, 4 * 64 * 24 + 80, 4 * 64 * 24 + 92); // a lamp in a grey room
+const light = new THREE.DataTexture(texels, 64, 32, THREE.RGBAFormat, THREE.FloatType);
+await rowland.setProbe(light); // or: await new HDRLoader().loadAsync("sunset.hdr")
 renderer.setAnimationLoop(() => renderer.render(scene, camera));

@@ -1,7 +1,8 @@
 import { Matrix4, MeshPhysicalMaterial, type BufferGeometry, type Mesh } from "three";
 import type { GLTF, GLTFLoaderPlugin, GLTFParser } from "three/examples/jsm/loaders/GLTFLoader.js";
 import { flatNormal } from "./frames.js";
-import { GratingMaterial, type GratingParameters } from "./material.js";
+import type { GratingParameters } from "./graded.js";
+import { GratingMaterial } from "./material.js";
 import type { Rowland } from "./rowland.js";
 
 const IDENTITY = new Matrix4();

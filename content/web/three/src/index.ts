@@ -1,4 +1,6 @@
-export { GratingMaterial, type GratingParameters, type Representation } from "./material.js";
+export { GratingMaterial } from "./material.js";
+export type { GratingParameters } from "./graded.js";
+export type { Representation } from "./grating_state.js";
 export { GratingExtension } from "./gltf.js";
 export { Rowland } from "./probe.js";
 export type { Efficiencies, Panorama } from "./rowland.js";

@@ -45,3 +45,15 @@ export function storageTexture(vectors: Float32Array): DataTexture {
     texture.needsUpdate = true;
     return texture;
 }
+
+/** Moves the texels of `from` into a texture of the same kind and size; false if they differ in that. */
+export function takeContent(to: Texture, from: Texture): boolean {
+    const [own, other] = [to.image, from.image] as { width: number; height: number; depth?: number; data: object }[];
+    const alike = (["constructor", "format", "type", "wrapS", "wrapT", "magFilter", "minFilter"] as const).every((key) => to[key] === from[key]) &&
+        (to as Data3DTexture).wrapR === (from as Data3DTexture).wrapR && own.width === other.width && own.height === other.height &&
+        own.depth === other.depth && to.mipmaps!.length === 0 && from.mipmaps!.length === 0;
+    if (!alike) return false;
+    own.data = other.data;
+    to.needsUpdate = true;
+    return true;
+}

@@ -1,7 +1,7 @@
 // Renders the points of a test, a quad of pixels each, and posts their radiance.
 import * as THREE from "three";
 import { EXRLoader } from "three/examples/jsm/loaders/EXRLoader.js";
-import { RGBELoader } from "three/examples/jsm/loaders/RGBELoader.js";
+import { HDRLoader } from "three/examples/jsm/loaders/HDRLoader.js";
 import { GratingMaterial, Rowland } from "../dist/index.js";
 
 const post = (value) => fetch("/result", { method: "POST", body: JSON.stringify(value) });
@@ -85,7 +85,7 @@ try {
     const renderer = new THREE.WebGLRenderer();
     const rowland = new Rowland();
     rowland.onError = (error) => post({ error: error.message });
-    const loader = probe.endsWith(".exr") ? new EXRLoader() : new RGBELoader();
+    const loader = probe.endsWith(".exr") ? new EXRLoader() : new HDRLoader();
     loader.setDataType(THREE.FloatType);
     const light = await loader.loadAsync(probe);
     // three takes a byte of a Radiance mantissa as n/255; the format and Rowland as n/256.

@@ -41,8 +41,8 @@ function rowlandHere() {
     return { rowland, modules, tasks };
 }
 
-const texels = (material) => material.tables.kernel.texels;
-const sees = (material) => material.tables.views > 1;
+const texels = (material) => material.state.tables.kernel.texels;
+const sees = (material) => material.state.tables.views > 1;
 
 test("scalar theory shows until rigorous theory is solved", { skip }, async (t) => {
     const { rowland, modules } = rowlandHere();
