@@ -5,7 +5,7 @@ import type { IMaterial } from "@babylonjs/loaders/glTF/2.0/glTFLoaderInterfaces
 import type { GLTFLoader } from "@babylonjs/loaders/glTF/2.0/glTFLoader.js";
 import type { IGLTFLoaderExtension } from "@babylonjs/loaders/glTF/2.0/glTFLoaderExtension.js";
 import { registerGLTFExtension, unregisterGLTFExtension } from "@babylonjs/loaders/glTF/2.0/glTFLoaderExtensionRegistry.js";
-import type { Rowland } from "../../three/src/rowland.js";
+import type { Rowland } from "./shared/rowland.js";
 import { GratingPlugin } from "./plugin.js";
 
 const NAME = "ROWLAND_materials_diffraction";

@@ -1,6 +1,17 @@
+import { RGBE_ReadHeader, RGBE_ReadPixels } from "@babylonjs/core/Misc/HighDynamicRange/hdr.js";
+import type { Panorama } from "./shared/rowland.js";
+
 export { registerGratings } from "./gltf.js";
-export { readPanorama } from "./panorama.js";
-export { GratingPlugin, gratingMaterial, type GratingOptions } from "./plugin.js";
-export { Rowland, type Efficiencies, type Panorama } from "../../three/src/rowland.js";
-export type { Representation } from "../../three/src/grating_state.js";
-export type { Grooves } from "./surface.js";
+export { GratingPlugin, gratingMaterial } from "./plugin.js";
+export { Rowland, type Efficiencies, type Panorama } from "./shared/rowland.js";
+export type { GratingSettings, Representation } from "./shared/grating_state.js";
+export type { Grooves } from "./engine.js";
+
+/** A Radiance file (.hdr), as HDRCubeTexture shows it. */
+export async function readPanorama(url: string): Promise<Panorama> {
+    const response = await fetch(url);
+    if (!response.ok) throw new Error(`${url}: ${response.status} ${response.statusText}`);
+    const bytes = new Uint8Array(await response.arrayBuffer());
+    const header = RGBE_ReadHeader(bytes);
+    return { texels: RGBE_ReadPixels(bytes, header), width: header.width, height: header.height };
+}

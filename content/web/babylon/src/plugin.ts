@@ -1,32 +1,13 @@
-import { Constants } from "@babylonjs/core/Engines/constants.js";
 import { Color3 } from "@babylonjs/core/Maths/math.color.js";
 import type { MaterialDefines } from "@babylonjs/core/Materials/materialDefines.js";
 import { MaterialPluginBase } from "@babylonjs/core/Materials/materialPluginBase.js";
 import { PBRMaterial } from "@babylonjs/core/Materials/PBR/pbrMaterial.js";
-import { RawTexture } from "@babylonjs/core/Materials/Textures/rawTexture.js";
-import { RawTexture2DArray } from "@babylonjs/core/Materials/Textures/rawTexture2DArray.js";
-import { RawTexture3D } from "@babylonjs/core/Materials/Textures/rawTexture3D.js";
-import type { Texture } from "@babylonjs/core/Materials/Textures/texture.js";
 import type { AbstractMesh } from "@babylonjs/core/Meshes/abstractMesh.js";
 import type { SubMesh } from "@babylonjs/core/Meshes/subMesh.js";
 import type { Scene } from "@babylonjs/core/scene.js";
-import { GratingState, type Representation, type TableTexture, type Value, type VectorTexture } from "../../three/src/grating_state.js";
-import type { Efficiencies, Rowland } from "../../three/src/rowland.js";
+import { Numbers, Texture, toProbe } from "./engine.js";
 import { FRAGMENT, VERTEX } from "./generated/shaders.js";
-import { MeshSurface, toProbe, type Grooves } from "./surface.js";
-
-export interface GratingOptions {
-    rowland: Rowland;
-    /** A material file's JSON, or the object of ROWLAND_materials_diffraction. */
-    grating: object;
-    /** Of a grating of rigorous theory. Without them a worker computes them; scalar theory shows until then. */
-    efficiencies?: Efficiencies | Float32Array;
-    /** By default "tangent" for meshes with tangents, else "radial". */
-    grooves?: Grooves;
-    /** By default "planar" for flat meshes, else "arc". */
-    representation?: Representation;
-}
-
+import { GratingState, type GratingOwner, type GratingSettings } from "./shared/grating_state.js";
 
 const FLAGS = ["ROWLAND", "ROWLAND_PLANAR", "ROWLAND_ARC", "ROWLAND_RADIAL", "ROWLAND_DIFFRACTION_ONLY", "KERNEL_VIEWS",
     "LOBE_GAUSSIAN", "LOBE_PITS", "COVER", "ZERO_ORDER", "LOBE_MAP", "HALF_TURN", "PITCH_AXIS"];
@@ -44,6 +25,8 @@ const UNIFORMS = [...new Set(DECLARED.filter((one) => !isSampler(one)).map(nameO
 /** GLSL's own preprocessor evaluates "# if"; Babylon's, which evaluates "#if", knows neither all operators nor continued lines. */
 const only = (text: string) => `# ifdef ROWLAND\n${text.replace(/^#(?=\w)/gm, "# ")}\n# endif`;
 
+// Which the shaders' build leaves out, as three has it.
+const PRECISION = ["sampler2D", "sampler2DArray", "sampler3D"].map((type) => `precision highp ${type};\n`).join("");
 const CODE: Record<string, Record<string, string>> = {
     vertex: {
         CUSTOM_VERTEX_DEFINITIONS: only(VERTEX),
@@ -51,13 +34,10 @@ const CODE: Record<string, Record<string, string>> = {
 #ifdef TANGENT
 across = tangentUpdated;
 #endif
-pass_grooves(positionUpdated, normalUpdated, across, finalWorld, vNormalW);`),
+pass_grooves(positionUpdated, normalUpdated, across, to_probe * finalWorld, mat3(to_probe) * vNormalW);`),
     },
     fragment: {
-        CUSTOM_FRAGMENT_DEFINITIONS: only(`precision highp sampler2D;
-precision highp sampler2DArray;
-precision highp sampler3D;
-${FRAGMENT}`),
+        CUSTOM_FRAGMENT_DEFINITIONS: only(PRECISION + FRAGMENT),
         CUSTOM_FRAGMENT_BEFORE_LIGHTS: only("prepare_grooves();"),
         // Each of Babylon's lights. The number of a light is in the line before.
         "!diffuseBase\\+=info\\.diffuse\\*shadowDebug(\\d+);\\n#else\\ndiffuseBase\\+=info\\.diffuse\\*shadow;":
@@ -65,7 +45,7 @@ ${FRAGMENT}`),
 #else
 diffuseBase+=info.diffuse*shadow;
 ` + only(`#if defined(DIRLIGHT$1) || defined(POINTLIGHT$1) || defined(SPOTLIGHT$1)
-add_lamp(to_probe * preInfo.L, vLightingIntensity.x * preInfo.attenuation * shadow * diffuse$1.rgb);
+add_lamp(mat3(to_probe) * preInfo.L, vLightingIntensity.x * preInfo.attenuation * shadow * diffuse$1.rgb);
 #endif`),
         CUSTOM_FRAGMENT_BEFORE_FOG: only(`vec4 mirrored = vec4(0.0);
 #if defined(REFLECTION) && !defined(UNLIT)
@@ -88,73 +68,55 @@ finalColor.rgb -= min(min(finalColor.r, finalColor.g), min(finalColor.b, 0.0));`
     },
 };
 
-function textureOf(value: TableTexture | VectorTexture, scene: Scene): Texture {
-    const [rgba, half] = [Constants.TEXTUREFORMAT_RGBA, Constants.TEXTURETYPE_HALF_FLOAT];
-    if (value.kind === "vectors") {
-        const rows = Math.max(1, Math.ceil(value.vectors.length / 4096));
-        const padded = new Float32Array(4096 * rows);
-        padded.set(value.vectors);
-        return new RawTexture(padded, 1024, rows, rgba, scene, false, false, Constants.TEXTURE_NEAREST_SAMPLINGMODE, Constants.TEXTURETYPE_FLOAT);
-    }
-    const { texels, width, height, depth } = value.table;
-    const linear = Constants.TEXTURE_BILINEAR_SAMPLINGMODE;
-    const wrap = (axis: string) => (value.repeats.includes(axis) ? Constants.TEXTURE_WRAP_ADDRESSMODE : Constants.TEXTURE_CLAMP_ADDRESSMODE);
-    const texture = value.kind === "2d" ? new RawTexture(texels, width, height, rgba, scene, false, false, linear, half)
-        : value.kind === "array" ? new RawTexture2DArray(texels, width, height, depth, rgba, scene, false, false, linear, half)
-        : new RawTexture3D(texels, width, height, depth, rgba, scene, false, false, linear, half);
-    return Object.assign(texture, { wrapU: wrap("s"), wrapV: Constants.TEXTURE_CLAMP_ADDRESSMODE, wrapR: wrap("r") });
-}
-
 /**
  * A diffraction grating over a PBRMaterial, which is the layer beneath it. `rowland`'s panorama and Babylon's lights light
  * both; until the first map or table arrives, only the layer is drawn. Each mesh needs a material for itself, since the map
  * follows the mesh. WebGL 2 alone.
  */
-export class GratingPlugin extends MaterialPluginBase {
+export class GratingPlugin extends MaterialPluginBase implements GratingOwner {
     readonly state: GratingState;
-    private readonly textures = new Map<string, Texture>();
     private stale = false;
-    private surface?: { mesh: AbstractMesh; surface: MeshSurface };
+    private seen?: { mesh: AbstractMesh; object: { matrixWorld: { elements: ArrayLike<number> } } };
 
-    constructor(private readonly material: PBRMaterial, private readonly settings: GratingOptions) {
+    constructor(private readonly material: PBRMaterial, settings: GratingSettings) {
         super(material, "Rowland", 300, DEFINES, true, false);
         this.doNotSerialize = true; // without its workers it would show nothing
         this.registerForExtraEvents = true; // hardBindForSubMesh
         this._enable(true);
-        this.state = new GratingState(settings.rowland, (name) => this.put(name), () => this.refresh(), (colour, roughness) => {
-            Object.assign(material, { albedoColor: Color3.FromArray(colour), roughness, metallic: 0 });
-        });
-        this.state.representation = settings.representation;
-        this.state.bake(settings.grating, settings.efficiencies);
+        this.state = new GratingState(this);
+        this.state.configure(settings);
     }
 
     override getClassName(): string {
         return "GratingPlugin";
     }
 
-    private put(name: string): void {
-        const value = this.state.values.get(name) as Value;
-        if (typeof value !== "object" || !("kind" in value)) return;
-        this.textures.get(name)?.dispose();
-        this.textures.set(name, textureOf(value, this.material.getScene()));
+    /** Textures are made here, as in hardBindForSubMesh() one that is new would take the unit of the one before. */
+    valueAdded(name: string): void {
+        const { value } = this.state.values[name];
+        if (value instanceof Texture) value.of(this.material.getScene());
     }
 
-    /** Asks for another program. While a glTF loads, Babylon ignores this. */
-    private refresh(): void {
-        this.stale = this.material.getScene().blockMaterialDirtyMechanism;
+    valueChanged(name: string): void {
+        this.valueAdded(name);
+    }
+
+    contentChanged(): void {}
+
+    optionsChanged(): void {
+        this.stale = this.material.getScene().blockMaterialDirtyMechanism; // while a glTF loads
         if (!this.stale) this.markAllDefinesAsDirty();
     }
 
-    private groovesOf(mesh: AbstractMesh): Grooves {
-        return this.settings.grooves ?? (mesh.isVerticesDataPresent("tangent") ? "tangent" : "radial");
+    layerChanged(colour: [number, number, number], roughness: number): void {
+        Object.assign(this.material, { albedoColor: new Color3(...colour), metallic: 0, roughness });
     }
 
-    override prepareDefinesBeforeAttributes(defines: MaterialDefines, _: Scene, mesh: AbstractMesh): void {
+    override prepareDefinesBeforeAttributes(defines: MaterialDefines): void {
         const { options } = this.state;
-        const on = options.get("ROWLAND") !== undefined;
-        for (const name of FLAGS) defines[name] = on && options.get(name) !== undefined;
+        const on = options.has("ROWLAND");
+        for (const name of FLAGS) defines[name] = on && options.has(name);
         for (const name of NUMBERS) defines[name] = Number(options.get(name) ?? 0);
-        defines.ROWLAND_RADIAL = on && this.groovesOf(mesh) === "radial";
         if (on) defines._needNormals = true;
     }
 
@@ -173,34 +135,39 @@ export class GratingPlugin extends MaterialPluginBase {
     override hardBindForSubMesh(_: unknown, scene: Scene, __: unknown, subMesh: SubMesh): void {
         const { material, state } = this;
         const mesh = subMesh.getRenderingMesh();
-        const environment = material.reflectionTexture ?? scene.environmentTexture;
-        const probe = () => toProbe(scene, material.reflectionTexture ?? scene.environmentTexture);
-        if (this.surface?.mesh !== mesh) this.surface = { mesh, surface: new MeshSurface(mesh, this.groovesOf(mesh), probe) };
-        state.see(this.surface.surface);
-        if (this.stale) this.refresh();
+        const environment = () => material.reflectionTexture ?? scene.environmentTexture;
+        const pose = () => ({ elements: mesh.getWorldMatrix().multiply(toProbe(scene, environment())).m });
+        if (this.seen?.mesh !== mesh) this.seen = { mesh, object: { get matrixWorld() { return pose(); } } };
+        const environmentIntensity = scene.environmentIntensity * material.environmentIntensity * (environment()?.level ?? 1);
+        state.see({ environmentIntensity }, mesh, this.seen.object);
+        if (this.stale) this.optionsChanged();
         const effect = subMesh.effect;
-        if (!effect || !state.options.get("ROWLAND")) return;
-        effect.setMatrix3x3("to_probe", Float32Array.from(probe()));
-        for (const [name, value] of state.values) {
+        if (!effect || !state.options.has("ROWLAND")) return;
+        effect.setMatrix("to_probe", toProbe(scene, environment()));
+        const put = (name: string, value: unknown): void => {
             if (typeof value === "number") effect.setFloat(name, value);
-            else if ("kind" in value) effect.setTexture(name, this.textures.get(name)!);
-            else if (value.length === 2) effect.setFloat2(name, value[0], value[1]);
-            else if (value.length === 3) effect.setFloat3(name, value[0], value[1], value[2]);
-            else if (value.length === 4) effect.setFloat4(name, value[0], value[1], value[2], value[3]);
-            else effect.setMatrix3x3(name, value as Float32Array);
-        }
-        effect.setFloat("light_scale", scene.environmentIntensity * material.environmentIntensity * (environment?.level ?? 1));
+            else if (value instanceof Texture) effect.setTexture(name, value.of(scene));
+            else if (Array.isArray(value))
+                value.forEach((one, i) => Object.entries(one).forEach(([member, numbers]) => put(`${name}[${i}].${member}`, numbers)));
+            else if (value instanceof Numbers) {
+                const [x, y, z, w] = value.numbers;
+                if (value.numbers.length === 2) effect.setFloat2(name, x, y);
+                else if (value.numbers.length === 3) effect.setFloat3(name, x, y, z);
+                else if (value.numbers.length === 4) effect.setFloat4(name, x, y, z, w);
+                else effect.setMatrix3x3(name, Float32Array.from(value.numbers));
+            }
+        };
+        for (const [name, { value }] of Object.entries(state.values)) put(name, value);
     }
 
     override dispose(): void {
-        this.state.leave?.();
-        for (const texture of this.textures.values()) texture.dispose();
+        this.state.dispose();
     }
 }
 
 /** A material of grooves over a black layer. */
-export function gratingMaterial(name: string, scene: Scene, options: GratingOptions): PBRMaterial {
+export function gratingMaterial(name: string, scene: Scene, settings: GratingSettings): PBRMaterial {
     const material = Object.assign(new PBRMaterial(name, scene), { albedoColor: Color3.Black(), metallic: 0, roughness: 0.3 });
-    new GratingPlugin(material, options);
+    new GratingPlugin(material, settings);
     return material;
 }

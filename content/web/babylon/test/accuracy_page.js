@@ -1,5 +1,5 @@
 import { Engine } from "@babylonjs/core/Engines/engine.js";
-import { readPanorama, Rowland } from "../dist/babylon/src/index.js";
+import { readPanorama, Rowland } from "../dist/index.js";
 import { radiance } from "./points.js";
 
 const errors = [];

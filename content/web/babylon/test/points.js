@@ -9,7 +9,7 @@ import { Vector3 } from "@babylonjs/core/Maths/math.vector.js";
 import { Mesh } from "@babylonjs/core/Meshes/mesh.js";
 import { TransformNode } from "@babylonjs/core/Meshes/transformNode.js";
 import { Scene } from "@babylonjs/core/scene.js";
-import { GratingPlugin } from "../dist/babylon/src/index.js";
+import { GratingPlugin } from "../dist/index.js";
 
 /** With each vertex at the pixel that `place` names, and the colour as it is before tone curves and the screen's gamut. */
 class PointPlugin extends GratingPlugin {

@@ -1,12 +1,10 @@
 import {
-    Matrix3, Texture, Vector2, Vector3, Vector4, type BufferGeometry, type Camera, type Intersection, type Mesh, type Object3D,
-    type Scene,
-} from "three";
-import { flatNormal, groovesOf, pointFrame, worldFrames, worldNormal, type Grooves } from "./frames.js";
-import { grooveMap, rotationsOf, type GrooveMap } from "./groove_map.js";
+    arrayTexture, flatNormal, grooveMap, groovesOf, Matrix3, planeTexture, rotationsOf, storageTexture, takeContent, Texture,
+    Vector2, Vector3, Vector4, volumeTexture, worldFrames, worldNormal, type BufferGeometry, type GrooveMap, type Grooves,
+    type Object3D, type Scene,
+} from "./engine.js";
 import type { Efficiencies, Rowland } from "./rowland.js";
 import type { MaterialTables, Pitches, PlaneMap } from "./tasks.js";
-import { arrayTexture, planeTexture, storageTexture, takeContent, volumeTexture } from "./textures.js";
 
 /** How the light of a probe is shaded: a map for flat meshes, a table for curved ones, or its key lights alone. */
 export type Representation = "planar" | "arc" | "direct";
@@ -205,12 +203,10 @@ export class GratingState {
                 'with a groove_lobe that is not flat; expected the flat groove_lobe or the representation "direct"');
         this.set("groove_map", map.moments);
         this.set("groove_map_rest", map.rest);
-        texture.updateMatrix();
-        const m = texture.matrix.elements; // by columns
-        this.set("groove_uv_linear", new Vector4(m[0], m[1], m[3], m[4]));
-        this.set("groove_uv_offset", new Vector2(m[6], m[7]));
+        this.set("groove_uv_linear", map.uvLinear);
+        this.set("groove_uv_offset", map.uvOffset);
         this.set("groove_pitch", map.smallest);
-        this.option("ROWLAND_GROOVE_UV", texture.channel === 0 ? "uv" : "uv1");
+        this.option("ROWLAND_GROOVE_UV", map.uv);
         this.flag("GROOVE_GAPS", map.gaps);
         this.flag("GROOVES_EVEN", even);
     }
@@ -272,9 +268,9 @@ export class GratingState {
         const rowland = this.rowland!;
         const pitches = this.pitches;
         this.frameShown = Float32Array.from(object.matrixWorld.elements);
-        const turn = this.tables!.facts[FACT.rotation];
+        const turn = this.rotation;
         const turns = this.grooveMap && rotationsOf(this.grooveMap, this.grooveTexture!, geometry);
-        const { normals, gratings } = worldFrames(geometry, object, this.grooves ?? groovesOf(geometry), (i) => turn + (turns?.[i] ?? 0));
+        const { normals, gratings } = worldFrames(geometry, object, this.groovesOf(geometry), (i) => turn + (turns?.[i] ?? 0));
         if (!this.hasArcTable) {
             const { tables } = this;
             const arc = await rowland.arc(this.number, BANDS, pitches);
@@ -346,7 +342,7 @@ export class GratingState {
         if (!this.tables || !this.rowland) return;
         this.leave ??= this.rowland.follow(() => this.follow()); // also after dispose(), as three's materials
         if (this.values.light_scale.value !== scene.environmentIntensity) this.set("light_scale", scene.environmentIntensity);
-        this.flag("ROWLAND_RADIAL", (this.grooves ?? groovesOf(geometry)) === "radial");
+        this.flag("ROWLAND_RADIAL", this.groovesOf(geometry) === "radial");
         this.follow();
     }
 
@@ -377,10 +373,13 @@ export class GratingState {
         return this.rowland!.reference(this.number, points);
     }
 
-    /** The numbers of a point on a mesh that a Raycaster of `camera` hits. */
-    pointFrame(hit: Intersection<Mesh>, camera: Camera): Float32Array {
-        const turn = this.tables!.facts[FACT.rotation];
-        return pointFrame(hit, this.grooves ?? groovesOf(hit.object.geometry), turn, camera);
+    /** Radians from the tangent toward the bitangent, of a material without a groove texture. */
+    get rotation(): number {
+        return this.tables!.facts[FACT.rotation];
+    }
+
+    groovesOf(geometry: BufferGeometry): Grooves {
+        return this.grooves ?? groovesOf(geometry);
     }
 
     /** Texture look-ups per pixel for the light of the probe without its key lights. */

@@ -44,7 +44,7 @@ export class GratingMaterial extends graded(MeshPhysicalMaterial) {
             only("#ifndef USE_TANGENT\nin vec4 tangent;\n#endif\n" +
                 `#if defined(ROWLAND_GROOVE_UV) && !defined(USE_UV1)\nin vec2 uv1;\n#endif\n${VERTEX}`));
         shader.vertexShader = put(shader.vertexShader, "project_vertex", "",
-            only("pass_grooves(transformed, objectNormal, tangent, transformedNormal);"));
+            only("pass_grooves_in_view(transformed, objectNormal, tangent, transformedNormal);"));
         let fragment = shader.fragmentShader;
         fragment = put(fragment, "lights_physical_pars_fragment", "", only(FRAGMENT));
         fragment = put(fragment, "lights_fragment_begin", only("prepare_grooves();"), "");
