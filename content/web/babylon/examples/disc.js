@@ -1,9 +1,9 @@
-import { ArcRotateCamera, CreateGround, CreateDisc, DirectionalLight, Engine, HDRCubeTexture, Scene, Vector3 } from "@babylonjs/core";
+import { ArcRotateCamera, CreateDisc, Engine, HDRCubeTexture, Scene, Vector3 } from "@babylonjs/core";
 import { gratingMaterial, readPanorama, Rowland } from "@rowland/babylon";
 
 const engine = new Engine(document.querySelector("canvas"), true);
 const scene = new Scene(engine);
-new ArcRotateCamera("eye", 0.6, 1.1, 0.3, Vector3.Zero(), scene).minZ = 0.01;
+new ArcRotateCamera("eye", -1.3, 1.1, 0.25, Vector3.Zero(), scene).minZ = 0.01;
 const rowland = new Rowland();
 const grating = { pitch_nm: 1600, profile: { type: "lamellar", duty: 0.35, depth_nm: 90 } };
 const disc = CreateDisc("cd", { radius: 0.06, tessellation: 128 }, scene);

@@ -63,8 +63,10 @@ mirrored.rgb = toLinearSpace(mirrored.rgb);
 mirrored.rgb *= vReflectionInfos.x * vReflectionColor.rgb * vLightingIntensity.z;
 #endif
 finalColor.rgb = grating_surface(finalColor.rgb - finalEmissive, mirrored.rgb) + finalEmissive;
+#ifndef ROWLAND_DIFFRACTION_ONLY
 // Colours outside the screen's gamut are desaturated until no component is negative.
-finalColor.rgb -= min(min(finalColor.r, finalColor.g), min(finalColor.b, 0.0));`),
+finalColor.rgb -= min(min(finalColor.r, finalColor.g), min(finalColor.b, 0.0));
+#endif`),
     },
 };
 

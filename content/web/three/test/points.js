@@ -1,10 +1,6 @@
-// Renders the points of a test, a quad of pixels each, and posts their radiance.
+// Renders the points of a test, a quad of pixels each: their radiance.
 import * as THREE from "three";
-import { EXRLoader } from "three/examples/jsm/loaders/EXRLoader.js";
-import { HDRLoader } from "three/examples/jsm/loaders/HDRLoader.js";
-import { GratingMaterial, Rowland } from "../dist/index.js";
-
-const post = (value) => fetch("/result", { method: "POST", body: JSON.stringify(value) });
+import { GratingMaterial } from "../dist/index.js";
 
 /** The material with each vertex at the pixel that `place` names. */
 class PointMaterial extends GratingMaterial {
@@ -37,7 +33,7 @@ function geometry(frames, mirrored) {
     return result;
 }
 
-async function reference(rowland, { grating, frames }) {
+export async function reference(rowland, { grating, frames }) {
     const material = new GratingMaterial({ rowland, grating });
     const points = frames.flatMap(({ view, normal, grating }) => [...view, ...normal, ...grating]);
     const radiance = await material.reference(Float32Array.from(points));
@@ -51,7 +47,7 @@ function grooveTexture(texels) {
     return texture;
 }
 
-async function radiance(renderer, rowland, { grating, representation, frames, lamp, texels, mirrored }) {
+export async function radiance(renderer, rowland, { grating, representation, frames, lamp, texels, mirrored }) {
     const scene = new THREE.Scene();
     const camera = new THREE.PerspectiveCamera();
     const material = new PointMaterial({ rowland, grating, representation, grooveTexture: texels && grooveTexture(texels),
@@ -78,23 +74,4 @@ async function radiance(renderer, rowland, { grating, representation, frames, la
     const pixels = new Float32Array(8 * frames.length * 2);
     renderer.readRenderTargetPixels(target, 0, 0, 2 * frames.length, 2, pixels);
     return frames.map((_, i) => [...pixels.subarray(8 * i, 8 * i + 3)]);
-}
-
-try {
-    const { probe, keyLights, cases } = await (await fetch("/task")).json();
-    const renderer = new THREE.WebGLRenderer();
-    const rowland = new Rowland();
-    rowland.onError = (error) => post({ error: error.message });
-    const loader = probe.endsWith(".exr") ? new EXRLoader() : new HDRLoader();
-    loader.setDataType(THREE.FloatType);
-    const light = await loader.loadAsync(probe);
-    // three takes a byte of a Radiance mantissa as n/255; the format and Rowland as n/256.
-    if (probe.endsWith(".hdr")) light.image.data = light.image.data.map((x) => (x * 255) / 256);
-    await rowland.setProbe(light, { keyLights });
-    const results = [];
-    for (const one of cases)
-        results.push(await (one.representation === "reference" ? reference(rowland, one) : radiance(renderer, rowland, one)));
-    await post({ results });
-} catch (error) {
-    await post({ error: error.message + "\n" + error.stack });
 }
