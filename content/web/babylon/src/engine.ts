@@ -1,4 +1,4 @@
-/** What grating_state.ts takes from its engine: three's names for numbers and textures, and Babylon's meshes. */
+/** What the state of a grating takes from its engine: three's names for numbers and textures, and Babylon's meshes. */
 import { Constants } from "@babylonjs/core/Engines/constants.js";
 import { Matrix, Vector3 as Vector } from "@babylonjs/core/Maths/math.vector.js";
 import type { BaseTexture } from "@babylonjs/core/Materials/Textures/baseTexture.js";
@@ -20,6 +20,9 @@ export class Numbers {
         this.numbers.forEach((_, i) => (this.numbers[i] = from[at + i]));
         return this;
     }
+    copy({ numbers }: Numbers): this {
+        return this.fromArray(numbers);
+    }
     toArray = (): number[] => this.numbers;
     distanceTo = ({ numbers }: Numbers): number => Math.hypot(...this.numbers.map((x, i) => x - numbers[i]));
 }
@@ -30,7 +33,12 @@ export class Vector4 extends Numbers {
     get w(): number { return this.numbers[3]; }
     set w(value: number) { this.numbers[3] = value; }
 }
-export class Matrix3 extends Numbers { static override readonly size = 9; } // by columns
+/** By columns. */
+export class Matrix3 extends Numbers {
+    static override readonly size = 9;
+    clone = (): Matrix3 => new Matrix3(...this.numbers);
+    equals = (other: Matrix3): boolean => this.distanceTo(other) === 0;
+}
 
 /** Texels, and Babylon's texture of them once a scene draws it. */
 export class Texture {
@@ -69,6 +77,7 @@ const filtered = (kind: "plane" | "array" | "volume", { texels, width, height, d
 export const planeTexture = (table: Table) => filtered("plane", table, "s");
 export const arrayTexture = (table: Table, repeated = false) => filtered("array", table, repeated ? "s" : "");
 export const volumeTexture = (table: Table, { s, r }: { s?: boolean; r?: boolean }) => filtered("volume", table, (s ? "s" : "") + (r ? "r" : ""));
+export const MOST_STORED = 1024 * 2048;
 export function storageTexture(vectors: Float32Array): Texture {
     const rows = Math.max(1, Math.ceil(vectors.length / 4096));
     const padded = new Float32Array(4096 * rows);
@@ -86,52 +95,69 @@ export function grooveMap(..._: unknown[]): GrooveMap {
 export const rotationsOf = (..._: unknown[]): number[] => [];
 
 export type Grooves = "tangent" | "radial";
+/** Babylon's mesh; the others are what three's objects can be beside it. */
+export type Object3D = AbstractMesh & { readonly type?: string; isBatchedMesh?: boolean; maxInstanceCount?: number; morphTexture?: object };
 export type BufferGeometry = AbstractMesh;
-export type Scene = { readonly environmentIntensity: number };
-/** A mesh's pose in the space of the panorama. */
-export type Object3D = { readonly matrixWorld: { readonly elements: ArrayLike<number> } };
+export type Scene = { readonly environmentIntensity: number; readonly probe: Matrix3 };
+export type InstancedMesh = Object3D;
+export type BatchedMesh = Object3D & { maxInstanceCount: number };
+
+/** By columns, as GLSL's and three's. */
+const linear = (matrix: Matrix): number[] => [0, 1, 2, 4, 5, 6, 8, 9, 10].map((i) => matrix.m[i]);
+const apply = ({ numbers: m }: Matrix3, { x, y, z }: Vector): Vector =>
+    new Vector(m[0] * x + m[3] * y + m[6] * z, m[1] * x + m[4] * y + m[7] * z, m[2] * x + m[5] * y + m[8] * z);
 
 /**
  * From Babylon's world to the space of the panorama, which is right-handed with the middle of the picture at +x: where
  * Babylon's reflections show what HDRCubeTexture has loaded.
  */
-export function toProbe(scene: BabylonScene, environment: BaseTexture | null): Matrix {
-    const rotation = environment?.getReflectionTextureMatrix() ?? Matrix.Identity();
+export function toProbe(scene: BabylonScene, environment: BaseTexture | null): Matrix3 {
+    const rotation = environment?.getReflectionTextureMatrix() ?? Matrix.IdentityReadOnly;
     const invertZ = (environment as { invertZ?: boolean } | null)?.invertZ ?? false;
-    const swapped = Matrix.FromValues(0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 0, 0, 0, 0, 1);
-    return rotation.multiply(Matrix.Scaling(1, 1, scene.useRightHandedSystem === invertZ ? 1 : -1)).multiply(swapped);
+    const r = linear(rotation as Matrix);
+    const z = scene.useRightHandedSystem === invertZ ? 1 : -1;
+    return new Matrix3(...[0, 3, 6].flatMap((i) => [z * r[i + 2], r[i + 1], r[i]]));
 }
+export const probeFromWorld = ({ probe }: Scene): Matrix3 => probe;
 
 export function groovesOf(mesh: AbstractMesh): Grooves {
     return mesh.isVerticesDataPresent("tangent") ? "tangent" : "radial";
 }
 
-const flat = new WeakMap<AbstractMesh, Vector3 | null>();
+/** Babylon's meshes are one part: frames.ts of @rowland/three has those of instances. */
+export function partsOf(mesh: AbstractMesh, _: AbstractMesh): { instance: number; first: number; count: number }[] {
+    return [{ instance: 0, first: 0, count: mesh.getTotalVertices() }];
+}
+
+export function poseOf(mesh: AbstractMesh, _: AbstractMesh, { numbers }: Matrix3): Float32Array {
+    return Float32Array.from([...numbers, ...linear(mesh.getWorldMatrix())]);
+}
+
+const flat = new WeakMap<AbstractMesh, Vector | null>();
 /** The normal that all vertices have, to 1e-3; null for curved meshes. Looked for once for a mesh. */
-export function flatNormal(mesh: AbstractMesh): Vector3 | null {
+function flatNormal(mesh: AbstractMesh): Vector | null {
     if (!flat.has(mesh)) {
         const normals = mesh.getVerticesData("normal") ?? [];
         const first = Vector.FromArray(normals).normalize();
         let alike = normals.length > 0;
         for (let i = 3; alike && i < normals.length; i += 3) alike = Vector.Distance(Vector.FromArray(normals, i).normalize(), first) < 1e-3;
-        flat.set(mesh, alike ? new Vector3(...first.asArray()) : null);
+        flat.set(mesh, alike ? first : null);
     }
     return flat.get(mesh)!;
 }
 
-const matrices = ({ matrixWorld }: Object3D) => {
-    const toWorld = Matrix.FromArray(matrixWorld.elements);
-    return { toWorld, normalToWorld: Matrix.Transpose(Matrix.Invert(toWorld)) };
-};
+const normalMatrix = (mesh: AbstractMesh): Matrix => Matrix.Transpose(Matrix.Invert(mesh.getWorldMatrix()));
 
-export function worldNormal({ numbers }: Vector3, object: Object3D): Vector3 {
-    return new Vector3(...Vector.TransformNormal(Vector.FromArray(numbers), matrices(object).normalToWorld).normalize().asArray());
+/** The normal in the probe that all of a mesh has. */
+export function planeNormal(mesh: AbstractMesh, _: AbstractMesh, probe: Matrix3, __: number): Vector3 | null {
+    const normal = flatNormal(mesh);
+    return normal && new Vector3(...apply(probe, Vector.TransformNormal(normal, normalMatrix(mesh)).normalize()).asArray());
 }
 
-/** Normals and grating vectors of all vertices, as grating.vert.glsl computes them: frames.ts of @rowland/three. */
-export function worldFrames(mesh: AbstractMesh, object: Object3D, grooves: Grooves, turnOf: (vertex: number) => number) {
+/** Unit normals and grating vectors of all vertices in the probe, as surface.vert.glsl of @rowland/three computes them. */
+export function frames(mesh: AbstractMesh, _: AbstractMesh, probe: Matrix3, grooves: Grooves, turnOf: (vertex: number) => number) {
     const [positions, ownNormals, tangents] = ["position", "normal", "tangent"].map((kind) => mesh.getVerticesData(kind)!);
-    const { toWorld, normalToWorld } = matrices(object);
+    const [toWorld, normalToWorld] = [mesh.getWorldMatrix(), normalMatrix(mesh)];
     const mirroring = toWorld.determinant() < 0 ? -1 : 1; // inverts the cross product
     const [normals, gratings] = [new Float32Array(ownNormals.length), new Float32Array(ownNormals.length)];
     for (let i = 0; i < ownNormals.length; i += 3) {
@@ -142,8 +168,8 @@ export function worldFrames(mesh: AbstractMesh, object: Object3D, grooves: Groov
         const turn = turnOf(i / 3);
         const h = Vector.Cross(n, g).scale(mirroring * Math.sin(turn) * (tangents ? tangents[(4 * i) / 3 + 3] : 1));
         const turned = g.scale(Math.cos(turn)).add(h);
-        n.toArray(normals, i);
-        turned.subtract(n.scale(Vector.Dot(n, turned))).normalize().toArray(gratings, i);
+        apply(probe, n).toArray(normals, i);
+        apply(probe, turned.subtract(n.scale(Vector.Dot(n, turned))).normalize()).toArray(gratings, i);
     }
     return { normals, gratings };
 }

@@ -20,7 +20,7 @@ class GratingExtension implements IGLTFLoaderExtension {
 
     dispose(): void {}
 
-    /** Gives each mesh a material, since its map follows the mesh. */
+    /** Gives each mesh a material, so that flat ones keep their maps beside curved ones. */
     _loadMaterialAsync(context: string, material: IMaterial, _: Mesh | null, drawMode: number, assign: (material: Material) => void) {
         const grating = material.extensions?.[NAME] as { grooveTexture?: object } | undefined;
         if (!grating) return null;

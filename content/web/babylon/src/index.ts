@@ -4,7 +4,8 @@ import type { Panorama } from "./shared/rowland.js";
 export { registerGratings } from "./gltf.js";
 export { GratingPlugin, gratingMaterial } from "./plugin.js";
 export { Rowland, type Efficiencies, type Panorama } from "./shared/rowland.js";
-export type { GratingSettings, Representation } from "./shared/grating_state.js";
+export type { GratingSettings } from "./shared/grating_state.js";
+export type { Representation } from "./shared/surface.js";
 export type { Grooves } from "./engine.js";
 
 /** A Radiance file (.hdr), as HDRCubeTexture shows it. */

@@ -2,20 +2,20 @@ import { Color3 } from "@babylonjs/core/Maths/math.color.js";
 import type { MaterialDefines } from "@babylonjs/core/Materials/materialDefines.js";
 import { MaterialPluginBase } from "@babylonjs/core/Materials/materialPluginBase.js";
 import { PBRMaterial } from "@babylonjs/core/Materials/PBR/pbrMaterial.js";
-import type { AbstractMesh } from "@babylonjs/core/Meshes/abstractMesh.js";
 import type { SubMesh } from "@babylonjs/core/Meshes/subMesh.js";
 import type { Scene } from "@babylonjs/core/scene.js";
 import { Numbers, Texture, toProbe } from "./engine.js";
-import { FRAGMENT, VERTEX } from "./generated/shaders.js";
+import { FRAGMENT, VERTEX } from "./shared/generated/shaders.js";
 import { GratingState, type GratingOwner, type GratingSettings } from "./shared/grating_state.js";
 
-const FLAGS = ["ROWLAND", "ROWLAND_PLANAR", "ROWLAND_ARC", "ROWLAND_RADIAL", "ROWLAND_DIFFRACTION_ONLY", "KERNEL_VIEWS",
+const FLAGS = ["ROWLAND", "ROWLAND_PLANAR", "ROWLAND_ARC", "ROWLAND_DIFFRACTION_ONLY", "KERNEL_VIEWS",
     "LOBE_GAUSSIAN", "LOBE_PITS", "COVER", "ZERO_ORDER", "LOBE_MAP", "HALF_TURN", "PITCH_AXIS"];
 const NUMBERS = ["ROWLAND_MAXIMUM_KEY_LOBES", "VIEW_MAPPING", "TABLE_COLUMNS", "TABLE_ROWS", "LAYERS"];
 const DEFINES = Object.fromEntries([...FLAGS.map((name) => [name, false]), ...NUMBERS.map((name) => [name, 0])]);
 
 const DECLARED = [...(VERTEX + FRAGMENT).matchAll(/uniform (\w+) (\w+);|STORAGE\(\d+, \w+, (\w+), (\w+)\)/g)];
 const nameOf = ([, , uniform, , storage]: RegExpMatchArray) => uniform ?? storage;
+const INTEGERS = new Set(DECLARED.filter(([, type]) => type === "int").map(nameOf));
 const isSampler = ([, type]: RegExpMatchArray) => !type || type.startsWith("sampler");
 const SAMPLERS = [...new Set(DECLARED.filter(isSampler).map(nameOf))];
 const KEY_LOBE = ["direction", "flux", "moments", "turns", "mean", "variance", "height"];
@@ -25,27 +25,30 @@ const UNIFORMS = [...new Set(DECLARED.filter((one) => !isSampler(one)).map(nameO
 /** GLSL's own preprocessor evaluates "# if"; Babylon's, which evaluates "#if", knows neither all operators nor continued lines. */
 const only = (text: string) => `# ifdef ROWLAND\n${text.replace(/^#(?=\w)/gm, "# ")}\n# endif`;
 
-// Which the shaders' build leaves out, as three has it.
-const PRECISION = ["sampler2D", "sampler2DArray", "sampler3D"].map((type) => `precision highp ${type};\n`).join("");
+/** three's GLSL, which takes directions in its view, with Babylon's world for that, and with what its build leaves out. */
+const definitions = (text: string) => "#define viewMatrix mat4(1.0)\n" +
+    ["sampler2D", "sampler2DArray", "sampler3D"].map((type) => `precision highp ${type};\n`).join("") + text;
 const CODE: Record<string, Record<string, string>> = {
     vertex: {
-        CUSTOM_VERTEX_DEFINITIONS: only(VERTEX),
+        CUSTOM_VERTEX_DEFINITIONS: only(definitions(VERTEX)),
         CUSTOM_VERTEX_UPDATE_WORLDPOS: only(`vec4 across = vec4(1.0);
 #ifdef TANGENT
 across = tangentUpdated;
 #endif
-pass_grooves(positionUpdated, normalUpdated, across, to_probe * finalWorld, mat3(to_probe) * vNormalW);`),
+groove_position = positionUpdated;
+groove_normal = normalUpdated;
+pass_grooves(normal, across, mat3(finalWorld), vNormalW, 0);`),
     },
     fragment: {
-        CUSTOM_FRAGMENT_DEFINITIONS: only(PRECISION + FRAGMENT),
-        CUSTOM_FRAGMENT_BEFORE_LIGHTS: only("prepare_grooves();"),
+        CUSTOM_FRAGMENT_DEFINITIONS: only(definitions(FRAGMENT)),
+        CUSTOM_FRAGMENT_BEFORE_LIGHTS: only("prepare_grooves(vEyePosition.xyz - vPositionW, vNormalW);"),
         // Each of Babylon's lights. The number of a light is in the line before.
         "!diffuseBase\\+=info\\.diffuse\\*shadowDebug(\\d+);\\n#else\\ndiffuseBase\\+=info\\.diffuse\\*shadow;":
             `diffuseBase+=info.diffuse*shadowDebug$1;
 #else
 diffuseBase+=info.diffuse*shadow;
 ` + only(`#if defined(DIRLIGHT$1) || defined(POINTLIGHT$1) || defined(SPOTLIGHT$1)
-add_lamp(mat3(to_probe) * preInfo.L, vLightingIntensity.x * preInfo.attenuation * shadow * diffuse$1.rgb);
+add_lamp(in_probe(preInfo.L), vLightingIntensity.x * preInfo.attenuation * shadow * diffuse$1.rgb);
 #endif`),
         CUSTOM_FRAGMENT_BEFORE_FOG: only(`vec4 mirrored = vec4(0.0);
 #if defined(REFLECTION) && !defined(UNLIT)
@@ -72,13 +75,11 @@ finalColor.rgb -= min(min(finalColor.r, finalColor.g), min(finalColor.b, 0.0));
 
 /**
  * A diffraction grating over a PBRMaterial, which is the layer beneath it. `rowland`'s panorama and Babylon's lights light
- * both; until the first map or table arrives, only the layer is drawn. Each mesh needs a material for itself, since the map
- * follows the mesh. WebGL 2 alone.
+ * both; until the first map or table arrives, only the layer is drawn. WebGL 2 alone.
  */
 export class GratingPlugin extends MaterialPluginBase implements GratingOwner {
     readonly state: GratingState;
     private stale = false;
-    private seen?: { mesh: AbstractMesh; object: { matrixWorld: { elements: ArrayLike<number> } } };
 
     constructor(private readonly material: PBRMaterial, settings: GratingSettings) {
         super(material, "Rowland", 300, DEFINES, true, false);
@@ -137,17 +138,14 @@ export class GratingPlugin extends MaterialPluginBase implements GratingOwner {
     override hardBindForSubMesh(_: unknown, scene: Scene, __: unknown, subMesh: SubMesh): void {
         const { material, state } = this;
         const mesh = subMesh.getRenderingMesh();
-        const environment = () => material.reflectionTexture ?? scene.environmentTexture;
-        const pose = () => ({ elements: mesh.getWorldMatrix().multiply(toProbe(scene, environment())).m });
-        if (this.seen?.mesh !== mesh) this.seen = { mesh, object: { get matrixWorld() { return pose(); } } };
-        const environmentIntensity = scene.environmentIntensity * material.environmentIntensity * (environment()?.level ?? 1);
-        state.see({ environmentIntensity }, mesh, this.seen.object);
+        const environment = material.reflectionTexture ?? scene.environmentTexture;
+        const environmentIntensity = scene.environmentIntensity * material.environmentIntensity * (environment?.level ?? 1);
+        state.see({ environmentIntensity, probe: toProbe(scene, environment) }, mesh, mesh);
         if (this.stale) this.optionsChanged();
         const effect = subMesh.effect;
         if (!effect || !state.options.has("ROWLAND")) return;
-        effect.setMatrix("to_probe", toProbe(scene, environment()));
         const put = (name: string, value: unknown): void => {
-            if (typeof value === "number") effect.setFloat(name, value);
+            if (typeof value === "number") INTEGERS.has(name) ? effect.setInt(name, value) : effect.setFloat(name, value);
             else if (value instanceof Texture) effect.setTexture(name, value.of(scene));
             else if (Array.isArray(value))
                 value.forEach((one, i) => Object.entries(one).forEach(([member, numbers]) => put(`${name}[${i}].${member}`, numbers)));

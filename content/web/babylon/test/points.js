@@ -34,7 +34,7 @@ class MirrorPlugin extends PointPlugin {
     pointCode() {
         return `# if defined(ROWLAND) && defined(REFLECTION)
 point.rgb = sampleReflectionLod(reflectionSampler, reflectionOut.reflectionCoords, 0.0).rgb - 0.5 -
-    0.5 * (mat3(to_probe) * reflect(-viewDirectionW, normalW));
+    0.5 * in_probe(reflect(-viewDirectionW, normalW));
 # else
 point.rgb = vec3(9.0);
 # endif`;

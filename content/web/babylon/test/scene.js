@@ -1,4 +1,5 @@
-// A glTF with a tilted disc, a curved strip and a lamp, drawn by Babylon and by three: the light that the grooves diffract.
+// A glTF with a tilted disc, a curved strip and a lamp, drawn by Babylon and by three. Kinds of pictures: "diffracted", which is
+// the light that the grooves diffract alone, and "whole".
 import { FreeCamera } from "@babylonjs/core/Cameras/freeCamera.js";
 import { Engine } from "@babylonjs/core/Engines/engine.js";
 import { ImportMeshAsync } from "@babylonjs/core/Loading/sceneLoader.js";
@@ -81,7 +82,7 @@ async function idle(rowland) {
     while (rowland.busy) await new Promise((resolve) => (rowland.onIdle = resolve));
 }
 
-export async function byBabylon(rowland, panorama) {
+export async function byBabylon(rowland, panorama, kinds) {
     const canvas = canvasOf();
     const engine = new Engine(canvas, false, { preserveDrawingBuffer: true, useExactSrgbConversions: true });
     engine.getCaps().parallelShaderCompile = undefined; // else Babylon draws with the program before while it compiles
@@ -101,18 +102,18 @@ export async function byBabylon(rowland, panorama) {
         await scene.whenReadyAsync();
         scene.render();
     };
-    for (const only of [true, false]) {
+    for (const kind of kinds) {
         for (const { pluginManager } of scene.materials)
-            if (pluginManager) pluginManager.getPlugin("Rowland").state.diffractionOnly = only;
+            if (pluginManager) pluginManager.getPlugin("Rowland").state.diffractionOnly = kind === "diffracted";
         await draw();
         await idle(rowland);
         await draw();
-        pictures[only ? "diffracted" : "whole"] = canvas.toDataURL("image/png");
+        pictures[kind] = canvas.toDataURL("image/png");
     }
     return { pictures, canvas };
 }
 
-export async function byThree(rowland, panorama) {
+export async function byThree(rowland, panorama, kinds) {
     const canvas = canvasOf();
     const renderer = new THREE.WebGLRenderer({ canvas, preserveDrawingBuffer: true });
     renderer.setSize(WIDTH, HEIGHT, false);
@@ -127,12 +128,12 @@ export async function byThree(rowland, panorama) {
     image.flipY = image.needsUpdate = true;
     scene.environment = Object.assign(image, { mapping: THREE.EquirectangularReflectionMapping, minFilter: THREE.LinearFilter, magFilter: THREE.LinearFilter });
     const pictures = {};
-    for (const only of [true, false]) {
-        scene.traverse(({ material }) => material?.isGratingMaterial && (material.diffractionOnly = only));
+    for (const kind of kinds) {
+        scene.traverse(({ material }) => material?.isGratingMaterial && (material.diffractionOnly = kind === "diffracted"));
         renderer.render(scene, camera);
         await idle(rowland);
         renderer.render(scene, camera);
-        pictures[only ? "diffracted" : "whole"] = canvas.toDataURL("image/png");
+        pictures[kind] = canvas.toDataURL("image/png");
     }
     return { pictures, canvas };
 }

@@ -28,7 +28,7 @@ export class GratingExtension implements GLTFLoaderPlugin {
         if (grating.grooveTexture) await this.parser.assignTexture(parameters, "grooveTexture", grating.grooveTexture);
     }
 
-    /** Gives each mesh a material, since its map follows the mesh; flat parts of it that face one way share one. */
+    /** Gives each mesh a material, so that flat ones keep their maps beside curved ones; flat parts that face one way share one. */
     async afterRoot(gltf: GLTF): Promise<void> {
         const seen = new Set<GratingMaterial>();
         for (const scene of gltf.scenes)

@@ -27,6 +27,19 @@ export function graded<Base extends Physical>(base: Base) {
             return this;
         }
 
+        /** Of three's MaterialLoader, which gets the grating without a Rowland: call bake(rowland, material.grating) then. */
+        override toJSON(meta?: Parameters<Material["toJSON"]>[0]): ReturnType<Material["toJSON"]> {
+            const { grating, grooves, representation } = this.state.settings;
+            return Object.assign(super.toJSON(meta), { type: "GratingMaterial", grating, grooves, representation });
+        }
+
+        override fromJSON(...[json, textures]: Parameters<Material["fromJSON"]>): this {
+            super.fromJSON(json, textures);
+            const { grating, grooves, representation } = json as GratingSettings;
+            this.state.configure({ grating, grooves, representation });
+            return this;
+        }
+
         override dispose(): void {
             super.dispose();
             this.state.dispose();
@@ -100,7 +113,8 @@ export function graded<Base extends Physical>(base: Base) {
 
         /** The numbers of a point on a mesh that a Raycaster of `camera` hits. */
         pointFrame(hit: Intersection<Mesh>, camera: Camera): Float32Array {
-            return pointFrame(hit, this.state.groovesOf(hit.object.geometry), this.state.rotation, camera);
+            const { state } = this;
+            return pointFrame(hit, state.probeOf(hit.object), state.groovesOf(hit.object.geometry), state.rotation, camera);
         }
 
         /** Texture look-ups per pixel for the light of the probe without its key lights. */

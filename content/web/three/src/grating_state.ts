@@ -1,13 +1,11 @@
 import {
-    arrayTexture, flatNormal, grooveMap, groovesOf, Matrix3, planeTexture, rotationsOf, storageTexture, takeContent, Texture,
-    Vector2, Vector3, Vector4, volumeTexture, worldFrames, worldNormal, type BufferGeometry, type GrooveMap, type Grooves,
-    type Object3D, type Scene,
+    arrayTexture, frames, grooveMap, groovesOf, Matrix3, MOST_STORED, probeFromWorld, rotationsOf, storageTexture, takeContent, Texture,
+    Vector2, Vector3, Vector4, volumeTexture, type BufferGeometry, type GrooveMap, type Grooves, type InstancedMesh, type Object3D,
+    type Scene,
 } from "./engine.js";
 import type { Efficiencies, Rowland } from "./rowland.js";
-import type { MaterialTables, Pitches, PlaneMap } from "./tasks.js";
-
-/** How the light of a probe is shaded: a map for flat meshes, a table for curved ones, or its key lights alone. */
-export type Representation = "planar" | "arc" | "direct";
+import { planeValues, productValues, Surface, type Representation } from "./surface.js";
+import { RANK, type MaterialTables, type Pitches } from "./tasks.js";
 
 export interface GratingSettings {
     rowland?: Rowland;
@@ -41,10 +39,12 @@ export interface GratingOwner {
 }
 
 const BANDS = 5;
-/** A plane that tilts by less keeps its map. */
-const STEADY = 1e-3;
 /** Number of key lights that a program has room for; it is compiled again for more. */
 const KEY_LIGHTS = 16;
+/** Vertices of a mesh and its instances whose products a texture holds. */
+const MOST_VERTICES = Math.floor((4 * MOST_STORED) / (3 * RANK));
+/** Meshes that keep their light; of more, those that were drawn last. */
+const SURFACES = 256;
 /** Smaller relative differences of the pitch are ignored, as by runtime/groove_map.cpp. */
 const SAME_PITCH = 0.01;
 
@@ -82,20 +82,20 @@ export class GratingState {
     private grooveMap?: GrooveMap;
     private readonly number = ++states;
     private bakes = 0;
-    private lightShown = 0;
     private hasArcTable = false;
-    private mapped = false; // the light of the probe is in the picture, coarsely at least
-    private normalShown?: Vector3;
-    private frameShown?: Float32Array;
-    private seen?: { geometry: BufferGeometry; object: Object3D }; // as it was last drawn
+    private arcPitch: Record<string, unknown> = {};
+    private disposed = false;
+    private readonly surfaces = new Map<Object3D, Surface>(); // the last drawn at the end
+    private keyLobes?: { light: number; values: Promise<Record<string, unknown>> };
     private busy = false;
+    private readonly told = new Set<string>();
     private leave?: () => void;
 
     constructor(private readonly owner: GratingOwner) {}
 
     /** Takes the settings, and bakes the grating if there is one. */
     configure({ rowland, grating, efficiencies, ...others }: GratingSettings): void {
-        Object.assign(this, others);
+        Object.assign(this, others, grating && { grating });
         if (rowland && grating) this.bake(rowland, grating, efficiencies);
     }
 
@@ -110,38 +110,76 @@ export class GratingState {
         this.rowland = rowland;
         this.grating = grating;
         this.efficiencies = efficiencies;
-        this.ready = rowland.material(this.number, grating, efficiencies).then((tables) => this.setKernel(tables));
+        this.ready = rowland.material(this.number, grating, efficiencies).then((tables) => {
+            if (!this.disposed) this.setKernel(tables);
+        });
         const bake = ++this.bakes;
         this.solved = this.ready.then(() => this.solve(grating, () => bake === this.bakes));
         this.solved.catch((error: Error) => rowland.onError(error));
+        this.disposed = false;
         this.leave ??= rowland.follow(() => this.follow());
     }
 
+    /** Releases what textures and workers hold. As three's materials it can be drawn after that, and is baked again. */
     dispose(): void {
         this.leave?.();
         this.leave = undefined;
-        for (const { value } of Object.values(this.values)) (value as Partial<Texture> | undefined)?.dispose?.();
+        this.disposed = true;
+        this.bakes += 1; // a solve that is under way is of no use
+        this.tables = undefined;
+        this.surfaces.clear();
+        for (const { value } of Object.values(this.values)) if (value instanceof Texture) value.dispose();
+        this.sweep();
+        this.rowland?.release(this.number);
     }
 
     private async solve(grating: object, isCurrent: () => boolean): Promise<void> {
+        if (!isCurrent()) return;
         const { relief } = this.tables!;
-        if (relief[0] === 0 || !isCurrent()) return; // there is nothing to solve
+        if (relief[0] === 0) return; // there is nothing to solve
         const efficiencies = await this.rowland!.solve(relief, isCurrent);
         if (!efficiencies || !isCurrent()) return;
         this.efficiencies = efficiencies;
-        this.setKernel(await this.rowland!.material(this.number, grating, efficiencies));
+        const tables = await this.rowland!.material(this.number, grating, efficiencies);
+        if (isCurrent()) this.setKernel(tables);
     }
 
-    private set(name: string, value: unknown): void {
+    private put(name: string, value: unknown): void {
         const old = this.values[name];
         if (!old) {
             this.values[name] = { value };
-            return this.owner.valueAdded(name);
+            this.owner.valueAdded(name);
+        } else if (old.value !== value) {
+            old.value = value;
+            this.owner.valueChanged(name);
         }
-        if (old.value instanceof Texture && value instanceof Texture && takeContent(old.value, value)) return this.owner.contentChanged(name);
-        (old.value as Partial<Texture> | undefined)?.dispose?.();
-        old.value = value;
-        this.owner.valueChanged(name);
+    }
+
+    /** Sets what all meshes share. */
+    private set(name: string, value: unknown): void {
+        const old = this.values[name]?.value;
+        if (old instanceof Texture && value instanceof Texture && takeContent(old, value)) return this.owner.contentChanged(name);
+        if (old instanceof Texture) old.dispose();
+        this.put(name, value);
+    }
+
+    /** Sets what is a mesh's own. */
+    private give(surface: Surface, values: Record<string, unknown>): void {
+        const shared = (texture: Texture) =>
+            [...this.surfaces.values()].some((other) => other !== surface && Object.values(other.values).includes(texture));
+        for (const [name, value] of Object.entries(values))
+            if (surface.set(name, value, shared)) this.owner.contentChanged(name);
+        this.sweep();
+    }
+
+    private readonly textures = new Set<Texture>(); // that surfaces have
+
+    /** Disposes textures that no mesh shows any more. */
+    private sweep(): void {
+        const used = new Set([...this.surfaces.values()].flatMap(({ values }) => Object.values(values)).filter((value) => value instanceof Texture));
+        for (const texture of this.textures) if (!used.has(texture)) texture.dispose();
+        this.textures.clear();
+        for (const texture of used) this.textures.add(texture);
     }
 
     private option(name: string, value: string | undefined): void {
@@ -160,9 +198,8 @@ export class GratingState {
         const vector = (at: number) => new Vector3().fromArray(facts, at);
         const matrix = (at: number) => new Matrix3().fromArray(facts, at);
         this.tables = tables;
-        this.lightShown = 0;
-        this.hasArcTable = this.mapped = false;
-        this.normalShown = this.frameShown = undefined;
+        this.hasArcTable = false;
+        for (const surface of this.surfaces.values()) surface.forget();
         this.set("kernel_table", views > 1 ? volumeTexture(kernel, {}) : arrayTexture(kernel));
         const scale = new Vector4().fromArray(kernelUniforms, 0);
         scale.w *= kernel.scale;
@@ -180,7 +217,6 @@ export class GratingState {
         this.set("base_weight", vector(FACT.base));
         const turn = facts[FACT.rotation];
         this.set("groove_turn", new Vector2(Math.cos(turn), Math.sin(turn)));
-        this.set("light_scale", 1);
         if (facts[FACT.hasBase] === 1)
             this.owner.layerChanged([facts[FACT.colour], facts[FACT.colour + 1], facts[FACT.colour + 2]], facts[FACT.roughness]);
         this.flag("LOBE_GAUSSIAN", facts[FACT.lobe] === 1);
@@ -188,7 +224,7 @@ export class GratingState {
         this.flag("KERNEL_VIEWS", views > 1);
         this.flag("COVER", facts[FACT.ior] > 0);
         this.flag("ZERO_ORDER", facts.subarray(FACT.zeroOrder, FACT.zeroOrder + 9).some((x) => x !== 0));
-        if (!this.values.key_lobes) this.setLight(new Float32Array());
+        for (const [name, value] of Object.entries(this.lightValues(new Float32Array()))) if (!this.values[name]) this.put(name, value);
         if (this.grooveTexture) this.setGrooveMap(this.grooveTexture, facts[FACT.even] === 1);
         if (!this.rowland!.hasLight) this.flag("ROWLAND", true); // else with the first map or table
         this.follow();
@@ -219,131 +255,159 @@ export class GratingState {
         return varies ? [Math.min(smallest, largest * (1 - SAME_PITCH)), largest] : null;
     }
 
-    private setLight(keyLobes: Float32Array): void {
+    private lightValues(keyLobes: Float32Array): Record<string, unknown> {
         const count = keyLobes.length / 28;
         const room = Math.max(count, KEY_LIGHTS);
         this.option("ROWLAND_MAXIMUM_KEY_LOBES", String(room));
         const names = ["direction", "flux", "moments", "turns", "mean", "variance", "height"];
-        this.set("key_lobe_count", new Vector4(count));
-        this.set("key_lobes", Array.from({ length: room }, (_, light) => Object.fromEntries(names.map((name, i) =>
-            [name, light < count ? new Vector4().fromArray(keyLobes, 28 * light + 4 * i) : new Vector4()]))));
-    }
-
-    private setPlane({ e1, e2, axes, halfTurn, pitch, table }: PlaneMap): void {
-        this.set("planar_e1", new Vector3(...e1));
-        this.set("planar_e2", new Vector3(...e2));
-        this.set("map_scale", table.scale);
-        if (axes) {
-            this.set("lobe_map", volumeTexture(table, { r: !halfTurn }));
-            this.set("lobe_map_axes", new Vector4(...axes));
-        } else {
-            this.set("planar_map", pitch ? volumeTexture(table, { s: true }) : planeTexture(table));
-            if (pitch) this.set("pitch_scale_bias", new Vector2(...pitch));
-            this.set("planar_map_half_texel", new Vector2(0.5 / table.width, 0.5 / table.height));
-        }
-        this.flag("LOBE_MAP", axes !== null);
-        this.flag("HALF_TURN", halfTurn);
-        this.flag("PITCH_AXIS", pitch !== null);
-        this.flag("ROWLAND_PLANAR", true);
+        return {
+            key_lobe_count: new Vector4(count),
+            key_lobes: Array.from({ length: room }, (_, light) => Object.fromEntries(names.map((name, i) =>
+                [name, light < count ? new Vector4().fromArray(keyLobes, 28 * light + 4 * i) : new Vector4()]))),
+        };
     }
 
     private get flatLobe(): boolean {
         return this.tables!.facts[FACT.lobe] === 0;
     }
 
-    /** `show`: called just before the first map is shown. */
-    private async showPlane(normal: Vector3, show: () => void): Promise<void> {
+    /** How all meshes of the material are shaded, as they have one program: flat ones by a table where one is curved. */
+    private get kind(): Representation {
+        if (this.representation === "direct") return "direct";
+        const surfaces = [...this.surfaces.values()];
+        const large = surfaces.find(({ object, vertices }) => vertices > MOST_VERTICES || (object as Partial<InstancedMesh>).morphTexture);
+        // A flat mesh has a map even under a groove texture: a table's products are per vertex and would miss the texture.
+        if (this.representation !== "arc" && surfaces.every(({ normal }) => normal)) return "planar";
+        if (!large) return "arc";
+        this.tell(`GratingMaterial on "${large.object.name || large.object.type}": ` + ((large.object as Partial<InstancedMesh>).morphTexture
+            ? "instances with morphs of their own have no table of light"
+            : `${large.vertices} vertices of instances, of which a table holds ${MOST_VERTICES}`) +
+            '; it shows bright lights alone. Use fewer vertices or several meshes, or the representation "direct"');
+        return "direct";
+    }
+
+    private tell(message: string): void {
+        if (!this.told.has(message)) this.rowland!.onError(new Error(message));
+        this.told.add(message);
+    }
+
+    private showAs(kind: Representation, pitches: boolean): void {
+        this.flag("PITCH_AXIS", pitches);
+        this.flag("ROWLAND_PLANAR", kind === "planar");
+        this.flag("ROWLAND_ARC", kind === "arc");
+        this.flag("ROWLAND", true);
+    }
+
+    private async showPlane(surface: Surface, light: Record<string, unknown>, isCurrent: () => boolean): Promise<void> {
         const rowland = this.rowland!;
-        this.normalShown = normal;
+        const normal = surface.normal!;
+        const { lightVersion } = rowland;
+        // Meshes that face one way share a map.
+        const alike = [...this.surfaces.values()].find((other) => other !== surface && other.facesAs(surface));
+        if (alike) {
+            this.give(surface, alike.values);
+            surface.show("planar", alike.light);
+            return rowland.onUpdate();
+        }
         const details = rowland.preview ? (["coarse"] as const) : (["coarse", "full"] as const);
         for (const detail of details) {
             const map = await rowland.plane(this.number, normal.toArray(), this.flatLobe, this.pitches, detail);
-            if (detail === "coarse") show();
-            this.setPlane(map);
+            if (!isCurrent()) return;
+            this.give(surface, { ...light, ...planeValues(map) });
+            surface.show("planar", lightVersion, detail === details[details.length - 1]);
+            this.flag("LOBE_MAP", map.axes !== null);
+            this.flag("HALF_TURN", map.halfTurn);
+            this.showAs("planar", map.pitch !== null);
             rowland.onUpdate();
+            if (lightVersion !== rowland.lightVersion) return; // the full map is for the next light
         }
     }
 
-    private async showArc(geometry: BufferGeometry, object: Object3D, show: () => void): Promise<void> {
+    private async showArc(surface: Surface, light: Record<string, unknown>, isCurrent: () => boolean): Promise<void> {
         const rowland = this.rowland!;
+        const { object, geometry, toProbe } = surface;
+        const { lightVersion } = rowland;
         const pitches = this.pitches;
-        this.frameShown = Float32Array.from(object.matrixWorld.elements);
         const turn = this.rotation;
         const turns = this.grooveMap && rotationsOf(this.grooveMap, this.grooveTexture!, geometry);
-        const { normals, gratings } = worldFrames(geometry, object, this.groovesOf(geometry), (i) => turn + (turns?.[i] ?? 0));
+        const { normals, gratings } = frames(object, geometry, toProbe, this.groovesOf(geometry), (i) => turn + (turns?.[i] ?? 0));
         if (!this.hasArcTable) {
-            const { tables } = this;
             const arc = await rowland.arc(this.number, BANDS, pitches);
-            if (tables !== this.tables) return; // of the grating before
+            if (!isCurrent()) return;
             this.hasArcTable = true;
             this.set("packed_table", arrayTexture(arc.weights, arc.mapping === 0));
             this.set("table_range", storageTexture(Float32Array.from({ length: 8 * arc.layers }, (_, i) => (i % 8 < 4 ? 1 : 0))));
-            if (pitches) this.set("pitch_scale_bias", new Vector2(...arc.pitch));
+            this.arcPitch = pitches ? { pitch_scale_bias: new Vector2(...arc.pitch) } : {};
             this.option("VIEW_MAPPING", String(arc.mapping));
             this.option("TABLE_COLUMNS", String(arc.weights.width));
             this.option("TABLE_ROWS", String(arc.weights.height));
             this.option("LAYERS", String(arc.layers));
         }
         const products = await rowland.products(this.number, BANDS, pitches, normals, gratings);
-        show();
-        this.set("vertex_products", storageTexture(products));
-        this.flag("PITCH_AXIS", pitches !== null);
-        this.flag("ROWLAND_ARC", true);
+        if (!isCurrent()) return;
+        this.give(surface, { ...light, ...this.arcPitch, ...productValues(surface, products) });
+        surface.show("arc", lightVersion);
+        this.showAs("arc", pitches !== null);
         rowland.onUpdate();
     }
 
-    /** Updates the map or table for the light and the object's pose, and the key lights together with it. */
-    private async settle(geometry: BufferGeometry, object: Object3D): Promise<void> {
+    /** Updates a mesh's map or table for the light and the pose, and the key lights together with it. */
+    private async settle(surface: Surface, kind: Representation): Promise<void> {
         const rowland = this.rowland!;
-        let keyLobes: Float32Array | undefined;
-        if (this.lightShown !== rowland.lightVersion) {
-            this.lightShown = rowland.lightVersion;
-            this.mapped = false;
-            this.normalShown = this.frameShown = undefined;
-            keyLobes = await rowland.keyLobes();
-        }
-        const show = () => {
-            if (keyLobes) this.setLight(keyLobes);
-            this.flag("ROWLAND", true);
-            this.mapped = true;
-        };
-        const flat = flatNormal(geometry);
-        // A flat mesh has a map even under a groove texture: a table's products are per vertex and would miss the
-        // texture.
-        const kind = this.representation ?? (flat ? "planar" : "arc");
-        if (kind === "planar" && flat) return this.showPlane(worldNormal(flat, object), show);
-        if (kind !== "direct" && rowland.preview) return; // a table waits for the key lights
-        if (kind !== "direct") return this.showArc(geometry, object, show);
-        show();
+        const { tables } = this;
+        const isCurrent = () => tables !== undefined && tables === this.tables; // not of the grating before
+        surface.ask(rowland.lightVersion, kind);
+        if (this.keyLobes?.light !== rowland.lightVersion)
+            this.keyLobes = { light: rowland.lightVersion, values: rowland.keyLobes().then((numbers) => this.lightValues(numbers)) };
+        const light = await this.keyLobes.values;
+        if (!isCurrent()) return;
+        if (kind === "planar") return this.showPlane(surface, light, isCurrent);
+        if (kind === "arc" && rowland.preview) return; // a table waits for the key lights
+        if (kind === "arc") return this.showArc(surface, light, isCurrent);
+        this.give(surface, light);
+        surface.show("direct", rowland.lightVersion);
+        this.showAs("direct", this.pitches !== null);
         rowland.onUpdate();
     }
 
-    private isSettled({ geometry, object }: { geometry: BufferGeometry; object: Object3D }): boolean {
-        if (this.lightShown !== this.rowland!.lightVersion) return false;
-        if (this.normalShown) return worldNormal(flatNormal(geometry)!, object).distanceTo(this.normalShown) < STEADY;
-        if (this.frameShown) return this.frameShown.every((x, i) => Math.abs(x - object.matrixWorld.elements[i]) < STEADY);
-        return true;
-    }
-
-    /** Asks for what the picture lacks, once the material has been drawn. */
+    /** Asks for what the picture lacks, once the material has been drawn: for one mesh after the other. */
     private follow(): void {
-        if (!this.tables || !this.seen || this.busy || this.rowland!.lightVersion === 0 || this.isSettled(this.seen)) return;
+        if (!this.tables || this.busy || this.surfaces.size === 0 || this.rowland!.lightVersion === 0) return;
+        const { kind } = this;
+        const waiting = [...this.surfaces.values()].filter((surface) => surface.drawn && !surface.isSettled(this.rowland!.lightVersion, kind));
+        if (waiting.length === 0) return;
         this.busy = true;
-        const failed = (error: Error) => this.rowland!.onError(error);
-        this.settled = this.settle(this.seen.geometry, this.seen.object).catch(failed).finally(() => {
+        const settleAll = async () => {
+            for (const surface of waiting)
+                if (this.surfaces.has(surface.object)) await this.settle(surface, kind).catch((error: Error) => this.rowland!.onError(error));
+        };
+        this.settled = settleAll().finally(() => {
             this.busy = false;
             this.follow();
         });
     }
 
-    /** To be called before the owner's material is drawn. */
+    private surfaceOf(object: Object3D, geometry: BufferGeometry): Surface {
+        let surface = this.surfaces.get(object);
+        if (surface?.geometry !== geometry) surface = new Surface(object, geometry);
+        this.surfaces.delete(object);
+        this.surfaces.set(object, surface);
+        if (this.surfaces.size > SURFACES) this.surfaces.delete(this.surfaces.keys().next().value!);
+        return surface;
+    }
+
+    /** To be called before the owner's material is drawn on an object: sets the values that are the object's. */
     see(scene: Scene, geometry: BufferGeometry, object: Object3D): void {
-        this.seen = { geometry, object };
-        if (!this.tables || !this.rowland) return;
-        this.leave ??= this.rowland.follow(() => this.follow()); // also after dispose(), as three's materials
-        if (this.values.light_scale.value !== scene.environmentIntensity) this.set("light_scale", scene.environmentIntensity);
-        this.flag("ROWLAND_RADIAL", this.groovesOf(geometry) === "radial");
-        this.follow();
+        if (this.disposed && this.rowland) this.bake(this.rowland, this.grating!, this.efficiencies);
+        const surface = this.surfaceOf(object, geometry);
+        surface.see(probeFromWorld(scene));
+        if (!this.tables) return;
+        if (!surface.isSettled(this.rowland!.lightVersion, this.kind)) this.follow();
+        for (const [name, value] of Object.entries(surface.values)) this.put(name, value);
+        const current = this.options.has("ROWLAND_ARC") ? "arc" : this.options.has("ROWLAND_PLANAR") ? "planar" : "direct";
+        this.put("light_scale", surface.shown === current ? scene.environmentIntensity ?? 1 : 0);
+        this.put("radial_grooves", this.groovesOf(geometry) === "radial" ? 1 : 0);
+        if (!(this.values.probe_from_world?.value as Matrix3 | undefined)?.equals(surface.toProbe)) this.put("probe_from_world", surface.toProbe.clone());
     }
 
     /** Whether reference() shows its grooves: not those of a texture, which vary within a pixel. */
@@ -353,7 +417,7 @@ export class GratingState {
 
     /** Whether the picture has the light of the probe; maps are coarse at first. */
     get lit(): boolean {
-        return this.mapped;
+        return [...this.surfaces.values()].some(({ light }) => light > 0 && light === this.rowland!.lightVersion);
     }
 
     /** Draws the light that the grooves diffract, alone: to compare it with reference(). */
@@ -380,6 +444,11 @@ export class GratingState {
 
     groovesOf(geometry: BufferGeometry): Grooves {
         return this.grooves ?? groovesOf(geometry);
+    }
+
+    /** From the world, as the object was last drawn in. */
+    probeOf(object: Object3D): Matrix3 {
+        return this.surfaces.get(object)?.toProbe ?? new Matrix3();
     }
 
     /** Texture look-ups per pixel for the light of the probe without its key lights. */

@@ -1,6 +1,6 @@
 export { GratingMaterial } from "./material.js";
 export type { GratingParameters } from "./graded.js";
-export type { Representation } from "./grating_state.js";
+export type { Representation } from "./surface.js";
 export { GratingExtension } from "./gltf.js";
 export { Rowland } from "./probe.js";
 export type { Efficiencies, Panorama } from "./rowland.js";

@@ -1,20 +1,41 @@
 import {
-    MeshPhysicalMaterial, type BufferGeometry, type Camera, type Object3D, type Scene,
-    type WebGLProgramParametersWithUniforms, type WebGLRenderer,
+    MeshPhysicalMaterial, type BufferGeometry, type Camera, type IUniform, type Object3D, type Scene, type WebGLProgramParametersWithUniforms,
+    type WebGLRenderer,
 } from "three";
 import { FRAGMENT, VERTEX } from "./generated/shaders.js";
 import { graded, type GratingParameters } from "./graded.js";
 
+const UNIFORMS = [...(VERTEX + FRAGMENT).matchAll(/\buniform \w+ (\w+)|\bSTORAGE\(\d+, \w+, \w+, (\w+)\)/g)].map(([, plain, stored]) => plain ?? stored);
+
+type Hooks = Pick<MeshPhysicalMaterial, "onBeforeCompile" | "onBeforeRender" | "customProgramCacheKey">;
+
 /**
  * MeshPhysicalMaterial of WebGLRenderer under a diffraction grating. The physical material is the layer beneath it.
- * `rowland`'s probe and three's lights light both; until the first map or table arrives, only the layer is drawn. Each
- * mesh needs a material for itself, since the map follows the mesh.
+ * `rowland`'s probe and three's lights light both; until the first map or table arrives, only the layer is drawn.
  */
 export class GratingMaterial extends graded(MeshPhysicalMaterial) {
     private applied: string[] = []; // options that are defines
+    private stale = false; // values that the program in use may lack
+    /** What a page sets: onBeforeCompile and others, which follow the material's own. Set before fields are. */
+    declare private hooks?: Partial<Hooks>;
 
     constructor(parameters: GratingParameters = {}) {
         super(parameters);
+    }
+
+    /** @internal */
+    override valueAdded(): void {
+        this.stale = true;
+    }
+
+    /** @internal */
+    override valueChanged(): void {
+        this.stale = true;
+    }
+
+    /** @internal */
+    override contentChanged(): void {
+        this.stale = true;
     }
 
     /** @internal */
@@ -27,34 +48,83 @@ export class GratingMaterial extends graded(MeshPhysicalMaterial) {
         this.needsUpdate = true;
     }
 
-    override onBeforeRender(_: WebGLRenderer, scene: Scene, __: Camera, geometry: BufferGeometry, object: Object3D): void {
+    private render(renderer: WebGLRenderer, scene: Scene, geometry: BufferGeometry, object: Object3D): void {
         this.state.see(scene, geometry, object);
+        // three uploads a material's uniforms once while it draws mesh after mesh with it, unless the program changes.
+        if (this.stale) renderer.state.useProgram(null as unknown as WebGLProgram);
+        this.stale = false;
     }
 
-    override customProgramCacheKey(): string {
-        return "@rowland/three";
-    }
-
-    override onBeforeCompile(shader: WebGLProgramParametersWithUniforms): void {
-        Object.assign(shader.uniforms, this.state.values);
+    private compile(shader: WebGLProgramParametersWithUniforms): void {
+        const { values } = this.state;
+        // Programs take their list of uniforms when they are compiled, and values may come later.
+        for (const name of UNIFORMS) shader.uniforms[name] = { get value() { return values[name]?.value ?? null; } } as IUniform;
         const put = (text: string, chunk: string, before: string, after: string) =>
             text.replace(`#include <${chunk}>`, `${before}\n#include <${chunk}>\n${after}`);
         const only = (text: string) => `#ifdef ROWLAND\n${text}\n#endif`;
-        shader.vertexShader = put(shader.vertexShader, "common", "",
+        let vertex = shader.vertexShader;
+        vertex = put(vertex, "common", "",
             only("#ifndef USE_TANGENT\nin vec4 tangent;\n#endif\n" +
                 `#if defined(ROWLAND_GROOVE_UV) && !defined(USE_UV1)\nin vec2 uv1;\n#endif\n${VERTEX}`));
-        shader.vertexShader = put(shader.vertexShader, "project_vertex", "",
-            only("pass_grooves_in_view(transformed, objectNormal, tangent, transformedNormal);"));
+        vertex = put(vertex, "morphnormal_vertex", "", only("groove_normal = objectNormal;"));
+        vertex = put(vertex, "morphtarget_vertex", "", only("groove_position = transformed;"));
+        shader.vertexShader = put(vertex, "project_vertex", "", only(`mat3 groove_linear = mat3(modelMatrix);
+int groove_instance = 0;
+#ifdef USE_BATCHING
+groove_linear *= mat3(batchingMatrix);
+groove_instance = int(getIndirectIndex(gl_DrawID));
+#elif defined(USE_INSTANCING)
+groove_linear *= mat3(instanceMatrix);
+groove_instance = gl_InstanceID;
+#endif
+#ifdef USE_SKINNING
+groove_linear *= mat3(skinMatrix);
+#endif
+pass_grooves(normal, tangent, groove_linear, transformedNormal, groove_instance);`));
         let fragment = shader.fragmentShader;
         fragment = put(fragment, "lights_physical_pars_fragment", "", only(FRAGMENT));
-        fragment = put(fragment, "lights_fragment_begin", only("prepare_grooves();"), "");
-        fragment = put(fragment, "opaque_fragment",
+        fragment = put(fragment, "lights_fragment_begin", only(`vec3 groove_side =
+#ifdef FLAT_SHADED
+faceDirection * nonPerturbedNormal;
+#else
+vNormal;
+#endif
+prepare_grooves(isOrthographic ? vec3(0.0, 0.0, 1.0) : vViewPosition, groove_side);`), "");
+        // Before three's sheen and clearcoat, which lie over the grooves.
+        fragment = put(fragment, "transmission_fragment", "",
             only("vec3 mirrored = vec3(0.0);\n#ifdef USE_ENVMAP\n" +
                 "mirrored = getIBLRadiance(geometryViewDir, normal, 0.0);\n#endif\n" +
-                "outgoingLight = grating_surface(totalDiffuse + totalSpecular, mirrored) + totalEmissiveRadiance;"),
-            // Colours outside the screen's gamut are desaturated until no component is negative.
-            "#if defined(ROWLAND) && !defined(ROWLAND_UNCOMPRESSED) && !defined(ROWLAND_DIFFRACTION_ONLY)\n" +
-                "gl_FragColor.rgb -= min(min(gl_FragColor.r, gl_FragColor.g), min(gl_FragColor.b, 0.0));\n#endif");
-        shader.fragmentShader = fragment;
+                "totalDiffuse = grating_surface(totalDiffuse + totalSpecular, mirrored);\ntotalSpecular = vec3(0.0);"));
+        // Colours outside the screen's gamut are desaturated until no component is negative.
+        shader.fragmentShader = put(fragment, "opaque_fragment", "",
+            only("#if !defined(ROWLAND_UNCOMPRESSED) && !defined(ROWLAND_DIFFRACTION_ONLY)\n" +
+                "gl_FragColor.rgb -= min(min(gl_FragColor.r, gl_FragColor.g), min(gl_FragColor.b, 0.0));\n#endif"));
+    }
+
+    /** What the material does itself, followed by what a page has set. */
+    private hook<Name extends keyof Hooks>(name: Name): Hooks[Name] {
+        const given = this.hooks?.[name] as ((...of: unknown[]) => unknown) | undefined;
+        const own: Hooks = {
+            onBeforeCompile: (...of) => {
+                this.compile(of[0]);
+                given?.apply(this, of);
+            },
+            onBeforeRender: (...of: unknown[]) => {
+                const [renderer, scene, , geometry, object] = of as [WebGLRenderer, Scene, Camera, BufferGeometry, Object3D];
+                this.render(renderer, scene, geometry, object);
+                given?.apply(this, of);
+            },
+            customProgramCacheKey: () => "@rowland/three " + (given?.apply(this, []) ?? this.hooks?.onBeforeCompile ?? ""),
+        };
+        return own[name];
+    }
+
+    static {
+        for (const name of ["onBeforeCompile", "onBeforeRender", "customProgramCacheKey"] as const)
+            Object.defineProperty(this.prototype, name, {
+                configurable: true,
+                get(this: GratingMaterial) { return this.hook(name); },
+                set(this: GratingMaterial, given: never) { this.hooks = { ...this.hooks, [name]: given }; },
+            });
     }
 }

@@ -36,6 +36,8 @@ export class Rowland {
     private readonly sources = new Map<number, Source>();
     private versions = 0;
     private lastSolve: Promise<unknown> = Promise.resolve();
+    private lastProbe: Promise<unknown> = Promise.resolve();
+    private lastFit: Promise<unknown> = Promise.resolve();
     private rest?: { light: number; sh: Promise<Float32Array> }; // without the key lights
     private keys: Float32Array = new Float32Array();
     private referenceImage?: { light: number; sent: Promise<void> };
@@ -68,8 +70,12 @@ export class Rowland {
      */
     async setProbe({ texels, width, height }: Panorama, { keyLights = 16 }: { keyLights?: number | "later" } = {}): Promise<void> {
         const light = ++this.newestLight;
-        await this.worker("maps").run("light", [texels, width, height], [texels]);
-        if (light !== this.newestLight) return;
+        // One after the other: of probes that follow each other fast the last is shown, and none waits in the worker.
+        const isNewest = () => light === this.newestLight;
+        const sent = this.lastProbe.then(() => (isNewest() ? this.worker("maps").run("light", [texels, width, height], [texels]) : null));
+        this.lastProbe = sent.catch(() => {});
+        await sent;
+        if (!isNewest()) return;
         this.show(new Float32Array(), keyLights !== 0);
         if (typeof keyLights === "number" && keyLights > 0) await this.setKeyLights(keyLights);
     }
@@ -80,10 +86,16 @@ export class Rowland {
      */
     async setKeyLights(keyLights: number | Float32Array): Promise<void> {
         const light = this.newestLight;
-        const keys = typeof keyLights === "number" ? await this.fitKeyLights(keyLights) : keyLights;
-        if (light !== this.newestLight) return;
+        const keys = typeof keyLights === "number" ? await this.fitNewest(light, keyLights) : keyLights;
+        if (!keys || light !== this.newestLight) return;
         await this.worker("maps").run("useKeyLights", [keys]);
         if (light === this.newestLight) this.show(keys, false);
+    }
+
+    private fitNewest(light: number, count: number): Promise<Float32Array | null> {
+        const fitted = this.lastFit.then(() => (light === this.newestLight ? this.fitKeyLights(count) : null));
+        this.lastFit = fitted.catch(() => {});
+        return fitted;
     }
 
     /** At most `count` sharp lights in the probe: seven numbers each, to be kept beside a panorama. */
@@ -121,6 +133,11 @@ export class Rowland {
         const source = { json: JSON.stringify(material), efficiencies: numbers, version: ++this.versions };
         this.sources.set(id, source);
         return this.worker("maps").run("material", [id, source]);
+    }
+    /** @internal Frees what the workers keep of a material. */
+    release(id: number): void {
+        this.sources.delete(id);
+        for (const work of ["maps", "tables"] as const) void this.workers.get(work)?.run("release", [id]).catch(() => {});
     }
     /** @internal Efficiencies for material(), one solve after the other; null if they are not wanted any more when it is their turn. */
     solve(relief: Float32Array, areWanted: () => boolean): Promise<Float32Array | null> {

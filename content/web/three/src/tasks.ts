@@ -54,7 +54,7 @@ const SIZES = {
     full: { flat: 256, azimuths: 176, g: 64, h: 64, pitched: 128, step: 1.03 }, // step: of pitches
 };
 const TABLE_STEP = 1.045; // of pitches: runtime/groove_map.cpp
-const RANK = 12;
+export const RANK = 12;
 /** Key lights: direction, flux, concentration. */
 export const KEY_LIGHT_NUMBERS = 7;
 
@@ -106,6 +106,14 @@ export class Tasks {
             views: texture[2],
             kernelUniforms: texture.slice(3, 14),
         };
+    }
+
+    /** Frees what of a material is kept in this worker. */
+    async release(id: number): Promise<void> {
+        if (this.baked.has(id)) (await this.module("bake")).call("release_material", this.baked.get(id)!);
+        this.baked.delete(id);
+        if (this.arcs.has(id)) (await this.module("arc")).call("release_arc", this.arcs.get(id)!.arc);
+        this.arcs.delete(id);
     }
 
     /** The efficiencies of MaterialTables.relief, by Maxwell's equations. Takes seconds. */

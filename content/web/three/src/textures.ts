@@ -34,6 +34,9 @@ export function volumeTexture(table: Table, repeated: { s?: boolean; r?: boolean
     return texture;
 }
 
+/** Vectors that a storage texture holds: its rows are the 2048 that every WebGL 2 has. */
+export const MOST_STORED = 1024 * 2048;
+
 /** STORAGE of dialect.glsl: vec4s in rows of 1024 texels, read unfiltered. */
 export function storageTexture(vectors: Float32Array): DataTexture {
     const rows = Math.max(1, Math.ceil(vectors.length / 4096));
