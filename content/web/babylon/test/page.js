@@ -56,7 +56,7 @@ try {
     const canvas = document.querySelector("canvas");
     const begun = performance.now();
     let green = 0; // fraction of the pixels, which neither the sky nor a disc without grooves has
-    while (green < 0.01 && errors.length === 0 && performance.now() < begun + 60000) {
+    while (green < 0.01 && errors.length === 0 && performance.now() < begun + 120000) {
         await new Promise(requestAnimationFrame);
         const pixels = pixelsOf(canvas, 160, 80);
         green = 0;

@@ -80,7 +80,8 @@ export async function radiance(engine, rowland, { grating, representation, frame
     const sizes = { position: 3, normal: 3, tangent: 4, place: 2 };
     for (const [kind, size] of Object.entries(sizes)) mesh.setVerticesData(kind, data[kind], false, size);
     mesh.setIndices(Array.from({ length: 6 * count }, (_, i) => i));
-    const material = Object.assign(new PBRMaterial("points", scene), { albedoColor: Color3.Black(), metallic: 0, roughness: 0.3, backFaceCulling: false });
+    const material = Object.assign(new PBRMaterial("points", scene), { albedoColor: Color3.Black(), metallic: 0, roughness: 0.3, backFaceCulling: false,
+        specularIntensity: 0 }); // of lamps on the layer beneath, where engines differ
     const plugin = new (mirrors ? MirrorPlugin : PointPlugin)(material, { rowland, grating, representation });
     mesh.material = material;
     if (lamp) {

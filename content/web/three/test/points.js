@@ -51,7 +51,7 @@ export async function radiance(renderer, rowland, { grating, representation, fra
     const scene = new THREE.Scene();
     const camera = new THREE.PerspectiveCamera();
     const material = new PointMaterial({ rowland, grating, representation, grooveTexture: texels && grooveTexture(texels),
-        side: THREE.DoubleSide });
+        side: THREE.DoubleSide, specularIntensity: 0 }); // of lamps on the layer beneath
     material.defines.ROWLAND_UNCOMPRESSED = "1";
     if (lamp) {
         const light = new THREE.DirectionalLight(new THREE.Color(...lamp.flux), 1);
