@@ -56,9 +56,9 @@ try {
     const canvas = document.querySelector("canvas");
     const begun = performance.now();
     let green = 0; // fraction of the pixels, which neither the sky nor a disc without grooves has
-    while (green < 0.01 && errors.length === 0 && performance.now() < begun + 120000) {
+    while (green < 0.0005 && errors.length === 0 && performance.now() < begun + 120000) {
         await new Promise(requestAnimationFrame);
-        const pixels = pixelsOf(canvas, 160, 80);
+        const pixels = pixelsOf(canvas, canvas.width, canvas.height);
         green = 0;
         for (let i = 0; i < pixels.length; i += 4)
             if (pixels[i + 1] > Math.max(pixels[i], pixels[i + 2]) + 20) green += 4 / pixels.length;
