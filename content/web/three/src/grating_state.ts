@@ -286,7 +286,8 @@ export class GratingState {
         return "direct";
     }
 
-    private tell(message: string): void {
+    /** Tells the page, once. */
+    tell(message: string): void {
         if (!this.told.has(message)) this.rowland!.onError(new Error(message));
         this.told.add(message);
     }

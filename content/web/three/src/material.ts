@@ -3,6 +3,7 @@ import {
     type WebGLRenderer,
 } from "three";
 import { FRAGMENT, VERTEX } from "./generated/shaders.js";
+import { fit } from "./limits.js";
 import { graded, type GratingParameters } from "./graded.js";
 
 const UNIFORMS = [...(VERTEX + FRAGMENT).matchAll(/\buniform \w+ (\w+)|\bSTORAGE\(\d+, \w+, \w+, (\w+)\)/g)].map(([, plain, stored]) => plain ?? stored);
@@ -55,8 +56,24 @@ export class GratingMaterial extends graded(MeshPhysicalMaterial) {
         this.stale = false;
     }
 
-    private compile(shader: WebGLProgramParametersWithUniforms): void {
+    /** How many layers of a table the program shows, once it is within the GPU's limits. */
+    private fit(shader: WebGLProgramParametersWithUniforms, { capabilities }: WebGLRenderer): number {
+        const { options } = this.state;
+        const grooveTexture = options.has("ROWLAND_GROOVE_UV");
+        const layers = options.has("ROWLAND_ARC") ? Number(options.get("LAYERS")) : 0;
+        const tables = layers > 0 ? 3 : options.has("ROWLAND_PLANAR") ? 1 : 0;
+        const textures = (options.has("ROWLAND") ? 1 : 0) + tables + (grooveTexture ? 2 : 0) + (layers > 0 && shader.batching ? 1 : 0);
+        const found = fit(shader, { textures, layers, grooveTexture }, capabilities.maxTextures, capabilities.maxVaryings);
+        const lacking = [...found.leftOut, ...(found.layers < layers ? [`${layers - found.layers} of ${layers} layers of its table`] : [])];
+        if (lacking.length > 0 && options.has("ROWLAND"))
+            this.state.tell(`GratingMaterial "${this.name}": this GPU has ${capabilities.maxTextures} texture units and ${capabilities.maxVaryings} varying ` +
+                `vectors; left out: ${lacking.join(", ")}. Give it fewer maps or lights with shadows`);
+        return found.layers;
+    }
+
+    private compile(shader: WebGLProgramParametersWithUniforms, renderer: WebGLRenderer): void {
         const { values } = this.state;
+        const shownLayers = `#define SHOWN_LAYERS ${this.fit(shader, renderer)}\n`;
         // Programs take their list of uniforms when they are compiled, and values may come later.
         for (const name of UNIFORMS) shader.uniforms[name] = { get value() { return values[name]?.value ?? null; } } as IUniform;
         const put = (text: string, chunk: string, before: string, after: string) =>
@@ -65,7 +82,7 @@ export class GratingMaterial extends graded(MeshPhysicalMaterial) {
         let vertex = shader.vertexShader;
         vertex = put(vertex, "common", "",
             only("#ifndef USE_TANGENT\nin vec4 tangent;\n#endif\n" +
-                `#if defined(ROWLAND_GROOVE_UV) && !defined(USE_UV1)\nin vec2 uv1;\n#endif\n${VERTEX}`));
+                `#if defined(ROWLAND_GROOVE_UV) && !defined(USE_UV1)\nin vec2 uv1;\n#endif\n${shownLayers}${VERTEX}`));
         vertex = put(vertex, "morphnormal_vertex", "", only("groove_normal = objectNormal;"));
         vertex = put(vertex, "morphtarget_vertex", "", only("groove_position = transformed;"));
         shader.vertexShader = put(vertex, "project_vertex", "", only(`mat3 groove_linear = mat3(modelMatrix);
@@ -82,7 +99,7 @@ groove_linear *= mat3(skinMatrix);
 #endif
 pass_grooves(normal, tangent, groove_linear, transformedNormal, groove_instance);`));
         let fragment = shader.fragmentShader;
-        fragment = put(fragment, "lights_physical_pars_fragment", "", only(FRAGMENT));
+        fragment = put(fragment, "lights_physical_pars_fragment", "", only(shownLayers + FRAGMENT));
         fragment = put(fragment, "lights_fragment_begin", only(`vec3 groove_side =
 #ifdef FLAT_SHADED
 faceDirection * nonPerturbedNormal;
@@ -106,7 +123,7 @@ prepare_grooves(isOrthographic ? vec3(0.0, 0.0, 1.0) : vViewPosition, groove_sid
         const given = this.hooks?.[name] as ((...of: unknown[]) => unknown) | undefined;
         const own: Hooks = {
             onBeforeCompile: (...of) => {
-                this.compile(of[0]);
+                this.compile(of[0], of[1]);
                 given?.apply(this, of);
             },
             onBeforeRender: (...of: unknown[]) => {

@@ -28,7 +28,7 @@ test("gratings in pages", { skip: chromium() ? missing : "needs Chromium" }, asy
                 writeFileSync(join(process.env.PICTURES, `${name.replace(/\W+/g, "_")}_${which}.png`), Buffer.from(address.split(",")[1], "base64"));
         t.diagnostic(`${name}: ${JSON.stringify(row)}`);
     }
-    for (const { name, difference, colour, moved, again, told, errors, before, after } of rows)
+    for (const { name, difference, colour, moved, again, limits, leftOut, told, errors, before, after } of rows)
         await t.test(name, () => {
             assert.deepEqual(errors, []);
             if (TOLD[name]) assert.match(told.join(" | "), TOLD[name]);
@@ -38,5 +38,8 @@ test("gratings in pages", { skip: chromium() ? missing : "needs Chromium" }, asy
             if (moved !== undefined) assert.ok(moved > 0.05, `what the row changes is not seen: ${moved}`);
             if (again !== undefined) assert.ok(again < 1e-3, `the first canvas afterwards: ${again}`);
             assert.deepEqual(after, before);
+            if (!limits) return;
+            assert.ok(leftOut.includes("clearcoatMap") && !leftOut.includes("map"), `left out: ${leftOut}`);
+            assert.ok(limits.samplers > 10 && limits.samplers <= 16 && limits.varyings > 10 && limits.varyings <= 15, JSON.stringify(limits));
         });
 });

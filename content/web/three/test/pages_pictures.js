@@ -3,7 +3,7 @@ import * as THREE from "three";
 import { EffectComposer } from "three/examples/jsm/postprocessing/EffectComposer.js";
 import { OutputPass } from "three/examples/jsm/postprocessing/OutputPass.js";
 import { RenderPass } from "three/examples/jsm/postprocessing/RenderPass.js";
-import { SIZE, compare, eye, grating, lamp, mapped, picture, plate, renderer, sceneOf, shown } from "./pages_stage.js";
+import { SIZE, compare, eye, grating, lamp, mapped, picture, plate, renderer, sceneOf, shown, told } from "./pages_stage.js";
 
 const direct = (parameters) => grating({ ...parameters, representation: "direct" }); // without maps, which take their time
 const material = direct();
@@ -169,6 +169,53 @@ export const pictures = {
     "more than sixteen lights": async () => {
         const lights = Array.from({ length: 20 }, () => lamp(0.1));
         return row(await picture(sceneOf(...lights, mesh()), facing()), await plain());
+    },
+    "every map and shadows within the promises of WebGL 2": async () => {
+        const canvas = document.createElement("canvas");
+        const gl = canvas.getContext("webgl2");
+        const getParameter = gl.getParameter.bind(gl);
+        const promised = new Map([[gl.MAX_TEXTURE_IMAGE_UNITS, 16], [gl.MAX_VARYING_VECTORS, 15]]);
+        gl.getParameter = (name) => promised.get(name) ?? getParameter(name);
+        // Rows of four components between the stages: ANGLE names what a fragment shader reads, pairs end in Uv.
+        const linkProgram = gl.linkProgram.bind(gl);
+        const varyings = [];
+        gl.linkProgram = (program) => {
+            for (const shader of gl.getAttachedShaders(program)) {
+                const [, inputs] = /^Inputs: (.*)/.exec(gl.getExtension("WEBGL_debug_shaders").getTranslatedShaderSource(shader));
+                if (!inputs.includes("gl_FragCoord")) continue;
+                const names = inputs.trim().split(/ +/).filter((name) => !name.startsWith("gl_"));
+                const pairs = names.filter((name) => name.endsWith("Uv"));
+                varyings.push(names.length - pairs.length + Math.ceil(pairs.length / 2) + (names.includes("arc_products") ? 8 : 0));
+            }
+            linkProgram(program);
+        };
+        const other = new THREE.WebGLRenderer({ canvas, context: gl });
+        const light = lamp();
+        light.castShadow = true;
+        light.shadow.mapSize.set(16, 16);
+        other.shadowMap.enabled = true;
+        const texture = new THREE.DataTexture(Uint8Array.of(200, 150, 220, 255), 1, 1);
+        texture.needsUpdate = true;
+        const maps = ["map", "alphaMap", "lightMap", "aoMap", "emissiveMap", "bumpMap", "normalMap", "roughnessMap", "metalnessMap", "clearcoatMap",
+            "clearcoatNormalMap", "clearcoatRoughnessMap", "sheenColorMap", "sheenRoughnessMap", "specularColorMap", "specularIntensityMap"];
+        const all = (names) => ({ clearcoat: 0.5, sheen: 0.5, ...Object.fromEntries(names.map((name) => [name, texture])) });
+        const scene = (parameters) => {
+            const one = mesh(grating({ ...parameters, representation: "arc" }));
+            one.receiveShadow = true;
+            return sceneOf(light, one);
+        };
+        const found = await picture(scene(all(maps)), facing(), { by: other });
+        const message = told.splice(0).join(" | ");
+        const leftOut = /left out: (.*?)\./.exec(message)?.[1].split(", ") ?? [];
+        const samplers = [gl.SAMPLER_2D, gl.SAMPLER_3D, gl.SAMPLER_2D_ARRAY, gl.SAMPLER_CUBE, gl.SAMPLER_2D_SHADOW, gl.SAMPLER_CUBE_SHADOW];
+        const counts = other.info.programs.map(({ program }) =>
+            Array.from({ length: gl.getProgramParameter(program, gl.ACTIVE_UNIFORMS) }, (_, i) => gl.getActiveUniform(program, i))
+                .reduce((sum, { type, size }) => sum + (samplers.includes(type) ? size : 0), 0));
+        other.dispose();
+        renderer.shadowMap.enabled = true;
+        const expected = await picture(scene(all(maps.filter((name) => !leftOut.includes(name)))), facing());
+        renderer.shadowMap.enabled = false;
+        return { ...row(found, expected), leftOut, limits: { samplers: Math.max(...counts), varyings: Math.max(...varyings) } };
     },
     "made and disposed fifty times": async () => {
         const scene = sceneOf(lamp());

@@ -1,7 +1,6 @@
-// Inserted after three's <lights_physical_pars_fragment>: the diffraction term for MeshPhysicalMaterial.
+// Inserted after three's <lights_physical_pars_fragment> and #define SHOWN_LAYERS: the diffraction term for MeshPhysicalMaterial.
 #define SEPARATE_LIGHTS
 #define KEY_LOBES
-#define SHOWN_LAYERS LAYERS
 #include "engine/gpu/shaders/dialect.glsl"
 uniform mat3 probe_from_world;
 // Set from three's varyings, as WebGL 2 promises only 60 components. Positions count from the eye.

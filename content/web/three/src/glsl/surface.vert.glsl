@@ -1,4 +1,4 @@
-// Inserted after three's <common>: what grooves.glsl reads from the vertices.
+// Inserted after three's <common> and #define SHOWN_LAYERS: what grooves.glsl reads from the vertices.
 out vec3 world_grating;  // in the probe, as all directions of grooves.glsl
 uniform vec2 groove_turn;  // cosine and sine
 uniform int radial_grooves;
@@ -14,7 +14,7 @@ STORAGE(4, ArcProducts, vec4, vertex_products);
 STORAGE(6, ArcFirsts, vec4, products_first);
 #endif
 uniform int products_stride;
-out vec4 arc_products[3 * LAYERS];
+out vec4 arc_products[3 * SHOWN_LAYERS];
 #endif
 
 // The position and the normal after morphs and before bones, in the object's space.
@@ -52,7 +52,7 @@ void pass_grooves(vec3 given, vec4 tangent, mat3 linear, vec3 normal_in_view, in
 #else
     int first = instance * products_stride;
 #endif
-    for (int i = 0; i < 3 * LAYERS; ++i)
+    for (int i = 0; i < 3 * SHOWN_LAYERS; ++i)
         arc_products[i] = STORED_VEC4(vertex_products, (first + gl_VertexID) * 3 * LAYERS + i);
 #endif
 }
