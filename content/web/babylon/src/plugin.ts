@@ -26,7 +26,7 @@ const UNIFORMS = [...new Set(DECLARED.filter((one) => !isSampler(one)).map(nameO
 const only = (text: string) => `# ifdef ROWLAND\n${text.replace(/^#(?=\w)/gm, "# ")}\n# endif`;
 
 /** three's GLSL, which takes directions in its view, with Babylon's world for that, and with what its build leaves out. */
-const definitions = (text: string) => "#define viewMatrix mat4(1.0)\n" +
+const definitions = (text: string) => "#define SHOWN_LAYERS LAYERS\n#define viewMatrix mat4(1.0)\n" +
     ["sampler2D", "sampler2DArray", "sampler3D"].map((type) => `precision highp ${type};\n`).join("") + text;
 const CODE: Record<string, Record<string, string>> = {
     vertex: {
