@@ -8,7 +8,7 @@ const rowland = new Rowland();
 const grating = { pitch_nm: 1600, profile: { type: "lamellar", duty: 0.35, depth_nm: 90 } };
 const disc = CreateDisc("cd", { radius: 0.06, tessellation: 128 }, scene);
 disc.material = gratingMaterial("cd", scene, { rowland, grating: { grating, metal: "Al", cover: { ior: 1.58 } } });
-new DirectionalLight("lamp", new Vector3(0.1, 0.1, 1), scene).intensity = 3;
+new DirectionalLight("lamp", new Vector3(0.1, 0.1, 1), scene).intensity = 0.5;
 scene.environmentTexture = new HDRCubeTexture("light.hdr", scene, 256);
 await rowland.setProbe(await readPanorama("light.hdr"));
 engine.runRenderLoop(() => scene.render());
