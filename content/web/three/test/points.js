@@ -4,8 +4,8 @@ import { GratingMaterial } from "../dist/index.js";
 
 /** The material with each vertex at the pixel that `place` names. */
 class PointMaterial extends GratingMaterial {
-    onBeforeCompile(shader) {
-        super.onBeforeCompile(shader);
+    onBeforeCompile(shader, renderer) {
+        super.onBeforeCompile(shader, renderer);
         shader.vertexShader = "attribute vec2 place;\n" +
             shader.vertexShader.replace(/}\s*$/, "gl_Position = vec4(place, 0.0, 1.0);\n}");
     }
