@@ -39,7 +39,9 @@ function varyingsOf(parameters: Parameters, { layers, grooveTexture }: Additions
  * Leaves out maps, then layers of a table, until a program has at most these texture units and varying vectors: WebGL 2
  * promises 16 and 15. The parameters of onBeforeCompile are changed.
  */
-export function fit(given: WebGLProgramParametersWithUniforms, added: Additions, maxTextures: number, maxVaryings: number): { leftOut: string[]; layers: number } {
+export function fit(
+    given: WebGLProgramParametersWithUniforms, added: Additions, maxTextures: number, maxVaryings: number,
+): { leftOut: string[]; layers: number } {
     const parameters = given as unknown as Parameters;
     const leftOut: string[] = [];
     const fits = (layers: number) => texturesOf(parameters, added) <= maxTextures && varyingsOf(parameters, { ...added, layers }) <= maxVaryings;

@@ -6,7 +6,8 @@ import { FRAGMENT, VERTEX } from "./generated/shaders.js";
 import { fit } from "./limits.js";
 import { graded, type GratingParameters } from "./graded.js";
 
-const UNIFORMS = [...(VERTEX + FRAGMENT).matchAll(/\buniform \w+ (\w+)|\bSTORAGE\(\d+, \w+, \w+, (\w+)\)/g)].map(([, plain, stored]) => plain ?? stored);
+const UNIFORMS = [...(VERTEX + FRAGMENT).matchAll(/\buniform \w+ (\w+)|\bSTORAGE\(\d+, \w+, \w+, (\w+)\)/g)]
+    .map(([, plain, stored]) => plain ?? stored);
 
 type Hooks = Pick<MeshPhysicalMaterial, "onBeforeCompile" | "onBeforeRender" | "customProgramCacheKey">;
 
@@ -66,8 +67,8 @@ export class GratingMaterial extends graded(MeshPhysicalMaterial) {
         const found = fit(shader, { textures, layers, grooveTexture }, capabilities.maxTextures, capabilities.maxVaryings);
         const lacking = [...found.leftOut, ...(found.layers < layers ? [`${layers - found.layers} of ${layers} layers of its table`] : [])];
         if (lacking.length > 0 && options.has("ROWLAND"))
-            this.state.tell(`GratingMaterial "${this.name}": this GPU has ${capabilities.maxTextures} texture units and ${capabilities.maxVaryings} varying ` +
-                `vectors; left out: ${lacking.join(", ")}. Give it fewer maps or lights with shadows`);
+            this.state.tell(`GratingMaterial "${this.name}": this GPU has ${capabilities.maxTextures} texture units and ` +
+                `${capabilities.maxVaryings} varying vectors; left out: ${lacking.join(", ")}. Give it fewer maps or lights with shadows`);
         return found.layers;
     }
 

@@ -46,7 +46,8 @@ async function mappedByThree(pixels, toneMapping) {
 export const pictures = {
     "an orthographic camera": async () => {
         const scene = sceneOf(lamp(), new THREE.Mesh(new THREE.RingGeometry(0.15, 0.9, 32, 2), material));
-        const [near, far] = [new THREE.OrthographicCamera(-0.7, 0.7, 0.7, -0.7, 0.1, 5000), new THREE.PerspectiveCamera((180 / Math.PI) * 2 * Math.atan(0.7 / 2000), 1, 1, 5000)];
+        const near = new THREE.OrthographicCamera(-0.7, 0.7, 0.7, -0.7, 0.1, 5000);
+        const far = new THREE.PerspectiveCamera((180 / Math.PI) * 2 * Math.atan(0.7 / 2000), 1, 1, 5000);
         near.position.set(0.3, 0.4, 2).setLength(2000);
         far.position.copy(near.position);
         for (const camera of [near, far]) camera.lookAt(0, 0, 0);
@@ -219,7 +220,10 @@ export const pictures = {
     },
     "made and disposed fifty times": async () => {
         const scene = sceneOf(lamp());
-        const counts = () => ({ textures: renderer.info.memory.textures, geometries: renderer.info.memory.geometries, programs: renderer.info.programs.length });
+        const counts = () => {
+            const { textures, geometries } = renderer.info.memory;
+            return { textures, geometries, programs: renderer.info.programs.length };
+        };
         await plain();
         const once = async (parameters) => {
             const own = mesh(grating(parameters));

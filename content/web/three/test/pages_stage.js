@@ -135,7 +135,8 @@ export function url(pixels, exposure = 1) {
     for (let i = 0; i < pixels.length; ++i) {
         const row = SIZE - 1 - Math.floor(i / 4 / SIZE);
         const to = 4 * (row * SIZE + ((i >> 2) % SIZE)) + (i % 4);
-        image.data[to] = i % 4 === 3 ? 255 : pixels instanceof Uint8Array ? pixels[i] : 255 * Math.pow(Math.min(Math.max(exposure * pixels[i], 0), 1), 1 / 2.2);
+        const value = pixels instanceof Uint8Array ? pixels[i] : 255 * Math.min(Math.max(exposure * pixels[i], 0), 1) ** (1 / 2.2);
+        image.data[to] = i % 4 === 3 ? 255 : value;
     }
     canvas.getContext("2d").putImageData(image, 0, 0);
     return canvas.toDataURL("image/png");

@@ -18,5 +18,5 @@ test("the package stays as small as it is", { skip: built ? false : "needs dist:
         solve: zipped(readFileSync(packageFolder + "dist/solve.wasm")) };
     t.diagnostic(JSON.stringify(sizes));
     // 13 kB are tables of colours. arc.wasm is loaded with the first curved mesh, solve.wasm for rigorous theory.
-    assert.ok(sizes.script + sizes.worker + sizes.bake < 115000 + 13000 && sizes.arc < 131000 && sizes.solve < 91000, JSON.stringify(sizes));
+    assert.ok(sizes.script + sizes.worker + sizes.bake < 116000 + 13000 && sizes.arc < 131000 && sizes.solve < 91000, JSON.stringify(sizes));
 });

@@ -25,7 +25,8 @@ function rowlandHere(busy = {}) {
             postMessage({ id, task, args }) {
                 calls.most = Math.max(calls.most, ++waiting); // of one worker
                 calls.names.push(task);
-                last = last.then(() => busy[task]).then(() => own[task](...args)).then((result) => ({ id, result }), (error) => ({ id, error: error.message }))
+                last = last.then(() => busy[task]).then(() => own[task](...args))
+                    .then((result) => ({ id, result }), (error) => ({ id, error: error.message }))
                     .then((data) => {
                         --waiting;
                         worker.onmessage({ data });
