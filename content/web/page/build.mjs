@@ -26,7 +26,7 @@ const tasks = new Tasks(async (name) => readFileSync(`${from}/dist/${name}.wasm`
 /** So that nothing is fitted when the page opens. */
 async function builtInKeyLights() {
     const { builtInLight, LIGHT_NAMES } = await imported("lights.ts", { BUILT_IN_KEY_LIGHTS: "{}" });
-    const { texelsOf } = await import(pathToFileURL(from + "/dist/rowland.js"));
+    const { texelsOf } = await import(pathToFileURL(from + "/dist/probe.js"));
     const lights = {};
     for (const name of LIGHT_NAMES) {
         const { texels, width, height } = texelsOf(builtInLight(name));

@@ -71,9 +71,10 @@ async function loaded(file: string, rowland: Rowland): Promise<{ scene: Object3D
     scene.traverse((object) => {
         if ((object as Light).isLight) object.visible = false; // the panel has one
         const mesh = object as ShownMesh;
-        const material = mesh.material as Partial<GratingMaterial & FilmMaterial> | undefined;
-        const given = material?.grating ?? material?.film;
-        if (!mesh.isMesh || !given) return;
+        if (!mesh.isMesh) return;
+        const { grating, film } = mesh.material as { grating?: object; film?: object };
+        const given = grating ?? film;
+        if (!given) return;
         const handle = handleOf(mesh);
         const piece = byHandle.get(handle);
         if (piece) piece.meshes.push(mesh);

@@ -48,6 +48,7 @@ function shader(file) {
     return plainUniforms(bare)
         .split("\n")
         .map((line) => line.trim())
+        .map((line) => (/^#|\\$/.test(line) ? line : line.replace(/ *([=<>,;:?{}()*]|&&|\|\|) */g, "$1").replace(/(\w|\)) ([-+/]) (?=\w|\()/g, "$1$2")))
         .filter((line) => line !== "" && !line.startsWith("precision "))
         .join("\n");
 }

@@ -1,10 +1,15 @@
 import {
-    Matrix3, Matrix4, Vector3, Vector4, type BatchedMesh, type BufferAttribute, type BufferGeometry, type Camera, type InstancedMesh,
-    type Intersection, type Mesh, type Object3D, type SkinnedMesh,
+    Euler, Matrix3, Matrix4, Vector3, Vector4, type BatchedMesh, type BufferAttribute, type BufferGeometry, type Camera, type InstancedMesh,
+    type Intersection, type Mesh, type Object3D, type Scene, type SkinnedMesh,
 } from "three";
 
 /** Which way g, across the grooves, points on a mesh: along its tangents, or away from its origin as on a disc. */
 export type Grooves = "tangent" | "radial";
+
+/** From the world to the probe, which three's scene.environmentRotation turns. */
+export function probeFromWorld({ environmentRotation }: Scene): Matrix3 {
+    return new Matrix3().setFromMatrix4(new Matrix4().makeRotationFromEuler(environmentRotation ?? new Euler())).transpose();
+}
 
 export function groovesOf(geometry: BufferGeometry): Grooves {
     return geometry.getAttribute("tangent") ? "tangent" : "radial";

@@ -1,4 +1,5 @@
 import type { Camera, Intersection, Material, Mesh, MeshPhysicalMaterial, MeshPhysicalMaterialParameters } from "three";
+import { pointFrame } from "./frames.js";
 import { GratingState, type GratingOwner, type GratingSettings } from "./grating_state.js";
 import type { Efficiencies, Rowland } from "./rowland.js";
 
@@ -112,7 +113,8 @@ export function graded<Base extends Physical>(base: Base) {
 
         /** The numbers of a point on a mesh that a Raycaster of `camera` hits. */
         pointFrame(hit: Intersection<Mesh>, camera: Camera): Float32Array {
-            return this.state.pointFrame(hit, camera);
+            const { state } = this;
+            return pointFrame(hit, state.probeOf(hit.object), state.groovesOf(hit.object.geometry), state.rotation, camera);
         }
 
         /** Texture look-ups per pixel for the light of the probe without its key lights. */

@@ -1,13 +1,11 @@
 import {
-    Euler, Matrix3, Matrix4, Texture, Vector2, Vector3, Vector4, type BufferGeometry, type Camera, type InstancedMesh, type Intersection,
-    type Mesh, type Object3D, type Scene,
-} from "three";
-import { frames, groovesOf, pointFrame, type Grooves } from "./frames.js";
-import { grooveMap, rotationsOf, type GrooveMap } from "./groove_map.js";
+    arrayTexture, frames, grooveMap, groovesOf, Matrix3, MOST_STORED, probeFromWorld, rotationsOf, storageTexture, takeContent, Texture,
+    Vector2, Vector3, Vector4, volumeTexture, type BufferGeometry, type GrooveMap, type Grooves, type InstancedMesh, type Object3D,
+    type Scene,
+} from "./engine.js";
 import type { Efficiencies, Rowland } from "./rowland.js";
 import { planeValues, productValues, Surface, type Representation } from "./surface.js";
 import { RANK, type MaterialTables, type Pitches } from "./tasks.js";
-import { arrayTexture, MOST_STORED, storageTexture, takeContent, volumeTexture } from "./textures.js";
 
 export interface GratingSettings {
     rowland?: Rowland;
@@ -45,7 +43,6 @@ const BANDS = 5;
 const KEY_LIGHTS = 16;
 /** Vertices of a mesh and its instances whose products a texture holds. */
 const MOST_VERTICES = Math.floor((4 * MOST_STORED) / (3 * RANK));
-const NO_ROTATION = new Euler();
 /** Meshes that keep their light; of more, those that were drawn last. */
 const SURFACES = 256;
 /** Smaller relative differences of the pitch are ignored, as by runtime/groove_map.cpp. */
@@ -242,12 +239,10 @@ export class GratingState {
                 'with a groove_lobe that is not flat; expected the flat groove_lobe or the representation "direct"');
         this.set("groove_map", map.moments);
         this.set("groove_map_rest", map.rest);
-        texture.updateMatrix();
-        const m = texture.matrix.elements; // by columns
-        this.set("groove_uv_linear", new Vector4(m[0], m[1], m[3], m[4]));
-        this.set("groove_uv_offset", new Vector2(m[6], m[7]));
+        this.set("groove_uv_linear", map.uvLinear);
+        this.set("groove_uv_offset", map.uvOffset);
         this.set("groove_pitch", map.smallest);
-        this.option("ROWLAND_GROOVE_UV", texture.channel === 0 ? "uv" : "uv1");
+        this.option("ROWLAND_GROOVE_UV", map.uv);
         this.flag("GROOVE_GAPS", map.gaps);
         this.flag("GROOVES_EVEN", even);
     }
@@ -334,9 +329,9 @@ export class GratingState {
         const { object, geometry, toProbe } = surface;
         const { lightVersion } = rowland;
         const pitches = this.pitches;
-        const turn = this.tables!.facts[FACT.rotation];
+        const turn = this.rotation;
         const turns = this.grooveMap && rotationsOf(this.grooveMap, this.grooveTexture!, geometry);
-        const { normals, gratings } = frames(object, geometry, toProbe, this.grooves ?? groovesOf(geometry), (i) => turn + (turns?.[i] ?? 0));
+        const { normals, gratings } = frames(object, geometry, toProbe, this.groovesOf(geometry), (i) => turn + (turns?.[i] ?? 0));
         if (!this.hasArcTable) {
             const arc = await rowland.arc(this.number, BANDS, pitches);
             if (!isCurrent()) return;
@@ -406,13 +401,13 @@ export class GratingState {
     see(scene: Scene, geometry: BufferGeometry, object: Object3D): void {
         if (this.disposed && this.rowland) this.bake(this.rowland, this.grating!, this.efficiencies);
         const surface = this.surfaceOf(object, geometry);
-        surface.see(new Matrix4().makeRotationFromEuler(scene.environmentRotation ?? NO_ROTATION));
+        surface.see(probeFromWorld(scene));
         if (!this.tables) return;
         if (!surface.isSettled(this.rowland!.lightVersion, this.kind)) this.follow();
         for (const [name, value] of Object.entries(surface.values)) this.put(name, value);
         const current = this.options.has("ROWLAND_ARC") ? "arc" : this.options.has("ROWLAND_PLANAR") ? "planar" : "direct";
         this.put("light_scale", surface.shown === current ? scene.environmentIntensity ?? 1 : 0);
-        this.put("radial_grooves", (this.grooves ?? groovesOf(geometry)) === "radial" ? 1 : 0);
+        this.put("radial_grooves", this.groovesOf(geometry) === "radial" ? 1 : 0);
         if (!(this.values.probe_from_world?.value as Matrix3 | undefined)?.equals(surface.toProbe)) this.put("probe_from_world", surface.toProbe.clone());
     }
 
@@ -451,11 +446,18 @@ export class GratingState {
         return this.rowland!.reference(this.number, points);
     }
 
-    /** The numbers of a point on a mesh that a Raycaster of `camera` hits. */
-    pointFrame(hit: Intersection<Mesh>, camera: Camera): Float32Array {
-        const turn = this.tables!.facts[FACT.rotation];
-        const toProbe = this.surfaces.get(hit.object)?.toProbe ?? new Matrix3();
-        return pointFrame(hit, toProbe, this.grooves ?? groovesOf(hit.object.geometry), turn, camera);
+    /** Radians from the tangent toward the bitangent, of a material without a groove texture. */
+    get rotation(): number {
+        return this.tables!.facts[FACT.rotation];
+    }
+
+    groovesOf(geometry: BufferGeometry): Grooves {
+        return this.grooves ?? groovesOf(geometry);
+    }
+
+    /** From the world, as the object was last drawn in. */
+    probeOf(object: Object3D): Matrix3 {
+        return this.surfaces.get(object)?.toProbe ?? new Matrix3();
     }
 
     /** Texture look-ups per pixel for the light of the probe without its key lights. */

@@ -1,6 +1,6 @@
 import {
     ClampToEdgeWrapping, DataTexture, DataUtils, HalfFloatType, LinearFilter, LinearMipmapLinearFilter, MirroredRepeatWrapping,
-    NearestFilter, RGBAFormat, Vector2, type BufferGeometry, type Texture, type Wrapping,
+    NearestFilter, RGBAFormat, Vector2, Vector4, type BufferGeometry, type Texture, type Wrapping,
 } from "three";
 import { toHalf } from "./half.js";
 
@@ -15,6 +15,10 @@ export interface GrooveMap {
     readonly smallest: number;
     readonly largest: number;
     readonly gaps: boolean;
+    /** From the coordinates of this attribute to the texture's: the 2x2 part by columns, and the offset. */
+    readonly uv: "uv" | "uv1";
+    readonly uvLinear: Vector4;
+    readonly uvOffset: Vector2;
     /** The grooves' rotation at texture coordinates, in radians, from the texture's largest level. */
     rotation(u: number, v: number): number;
 }
@@ -140,12 +144,17 @@ export function grooveMap(from: Texture, even: boolean, sparkle: boolean): Groov
     const nearest = sparkle || from.magFilter === NearestFilter;
     const levels: Level[] = [{ width, height, data: momentsOf(bytes, even, gaps, smallest) }];
     for (let last = levels[0]; !nearest && last.width * last.height > 1; levels.push(last)) last = halved(last);
+    from.updateMatrix();
+    const m = from.matrix.elements; // by columns
     return {
         moments: texture(levels, toHalf, nearest, from),
         rest: texture(levels, (value) => toHalf(value - DataUtils.fromHalfFloat(toHalf(value))), nearest, from),
         smallest,
         largest,
         gaps,
+        uv: from.channel === 0 ? "uv" : "uv1",
+        uvLinear: new Vector4(m[0], m[1], m[3], m[4]),
+        uvOffset: new Vector2(m[6], m[7]),
         rotation: (u, v) => rotationAt({ bytes, width, height, nearest: from.magFilter === NearestFilter, like: from }, u, v),
     };
 }

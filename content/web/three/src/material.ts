@@ -6,7 +6,7 @@ import { FRAGMENT, VERTEX } from "./generated/shaders.js";
 import { fit } from "./limits.js";
 import { graded, type GratingParameters } from "./graded.js";
 
-const UNIFORMS = [...(VERTEX + FRAGMENT).matchAll(/\buniform \w+ (\w+)|\bSTORAGE\(\d+, \w+, \w+, (\w+)\)/g)]
+const UNIFORMS = [...(VERTEX + FRAGMENT).matchAll(/\buniform \w+ (\w+)|\bSTORAGE\(\d+,\w+,\w+,(\w+)\)/g)]
     .map(([, plain, stored]) => plain ?? stored);
 
 type Hooks = Pick<MeshPhysicalMaterial, "onBeforeCompile" | "onBeforeRender" | "customProgramCacheKey">;

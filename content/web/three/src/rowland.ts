@@ -1,23 +1,11 @@
-import { DataUtils, FloatType, HalfFloatType, type DataTexture, type Texture } from "three";
 import { TaskWorker } from "./task_worker.js";
 import type { ArcTables, Detail, FilmSource, FilmTable, MaterialTables, Pitches, PlaneMap, Source } from "./tasks.js";
 
-/** RGB texels of a texture that three's HDR or EXR loader gives, row 0 at the top. */
-export function texelsOf(texture: Texture): { texels: Float32Array; width: number; height: number } {
-    const { data, width, height } = (texture as DataTexture).image as { data: ArrayLike<number>; width: number; height: number };
-    if (!data || !(texture.type === FloatType || texture.type === HalfFloatType))
-        throw new Error("the probe: expected an equirectangular DataTexture of floats or halves, as HDRLoader or EXRLoader gives");
-    const components = data.length / (width * height);
-    const texels = new Float32Array(3 * width * height);
-    const number = texture.type === HalfFloatType ? DataUtils.fromHalfFloat : (x: number) => x;
-    for (let row = 0; row < height; ++row) {
-        // Row 0 of a texture that is not flipped on upload is at the bottom.
-        const from = texture.flipY ? row : height - 1 - row;
-        for (let column = 0; column < width; ++column)
-            for (let c = 0; c < 3; ++c)
-                texels[3 * (row * width + column) + c] = number(data[components * (from * width + column) + c]);
-    }
-    return { texels, width, height };
+/** An equirectangular picture: RGB, linear Rec.709, row 0 at the top. */
+export interface Panorama {
+    readonly texels: Float32Array;
+    readonly width: number;
+    readonly height: number;
 }
 
 /**
@@ -77,11 +65,10 @@ export class Rowland {
     }
 
     /**
-     * Sets the light: an equirectangular texture of floats or halves. Its bright parts become `keyLights` sharp lights.
-     * Until they are found, in about a second, coarse maps show all of the light; with "later", until setKeyLights().
+     * Sets the light. Its bright parts become `keyLights` sharp lights. Until they are found, in about a second, coarse
+     * maps show all of the light; with "later", until setKeyLights(). The texels move to a worker.
      */
-    async setProbe(texture: Texture, { keyLights = 16 }: { keyLights?: number | "later" } = {}): Promise<void> {
-        const { texels, width, height } = texelsOf(texture);
+    async setProbe({ texels, width, height }: Panorama, { keyLights = 16 }: { keyLights?: number | "later" } = {}): Promise<void> {
         const light = ++this.newestLight;
         // One after the other: of probes that follow each other fast the last is shown, and none waits in the worker.
         const isNewest = () => light === this.newestLight;

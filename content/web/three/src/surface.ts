@@ -1,7 +1,8 @@
-import { Matrix3, Matrix4, Texture, Vector2, Vector3, Vector4, type BatchedMesh, type BufferGeometry, type Object3D } from "three";
-import { partsOf, planeNormal, poseOf } from "./frames.js";
+import {
+    Matrix3, partsOf, planeNormal, planeTexture, poseOf, storageTexture, takeContent, Texture, Vector2, Vector3, Vector4, volumeTexture,
+    type BatchedMesh, type BufferGeometry, type Object3D,
+} from "./engine.js";
 import type { PlaneMap } from "./tasks.js";
-import { planeTexture, storageTexture, takeContent, volumeTexture } from "./textures.js";
 
 /** How the light of a probe is shaded: a map for flat meshes, a table for curved ones, or its key lights alone. */
 export type Representation = "planar" | "arc" | "direct";
@@ -30,10 +31,10 @@ export class Surface {
 
     constructor(readonly object: Object3D, readonly geometry: BufferGeometry) {}
 
-    /** It is about to be drawn. `environment`: three's scene.environmentRotation takes the probe's directions to the world. */
-    see(environment: Matrix4): void {
+    /** It is about to be drawn. `toProbe`: from the world. */
+    see(toProbe: Matrix3): void {
         this.drawn = true;
-        this.toProbe.setFromMatrix4(environment).transpose();
+        this.toProbe.copy(toProbe);
         this.normal = planeNormal(this.object, this.geometry, this.toProbe, STEADY);
         this.vertices = partsOf(this.object, this.geometry).reduce((sum, { count }) => sum + count, 0);
     }
@@ -93,7 +94,7 @@ export function planeValues({ e1, e2, axes, pitch, halfTurn, table }: PlaneMap):
 
 /** Of products, as surface.vert.glsl finds those of a vertex of an instance. */
 export function productValues({ object, geometry }: Surface, products: Float32Array): Record<string, unknown> {
-    const values: Record<string, unknown> = { vertex_products: storageTexture(products), products_stride: geometry.getAttribute("position").count };
+    const values: Record<string, unknown> = { vertex_products: storageTexture(products), products_stride: partsOf(object, geometry)[0]?.count ?? 0 };
     if ((object as Partial<BatchedMesh>).isBatchedMesh) {
         const firsts = new Float32Array(4 * (object as BatchedMesh).maxInstanceCount);
         let before = 0;

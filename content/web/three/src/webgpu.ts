@@ -1,5 +1,6 @@
 export { GratingNodeMaterial } from "./node/material.js";
 export type { GratingParameters } from "./graded.js";
 export type { Representation } from "./surface.js";
-export { Rowland, type Efficiencies } from "./rowland.js";
+export { Rowland } from "./probe.js";
+export type { Efficiencies } from "./rowland.js";
 export type { Grooves } from "./frames.js";

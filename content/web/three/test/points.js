@@ -1,50 +1,13 @@
-// Renders the points of a test, a quad of pixels each, by each of the renderers, and posts their radiance.
+// Renders the points of a test, a quad of pixels each: their radiance.
 import * as THREE from "three";
-import { attribute, vec4 } from "three/tsl";
-import { WebGPURenderer } from "three/webgpu";
-import { EXRLoader } from "three/examples/jsm/loaders/EXRLoader.js";
-import { HDRLoader } from "three/examples/jsm/loaders/HDRLoader.js";
-import { GratingMaterial, Rowland } from "../dist/index.js";
-import { GratingNodeMaterial } from "../dist/webgpu.js";
-
-const post = (value) => fetch("/result", { method: "POST", body: JSON.stringify(value) });
+import { GratingMaterial } from "../dist/index.js";
 
 /** The material with each vertex at the pixel that `place` names. */
-class PointMaterial extends GratingMaterial {
-    onBeforeCompile(shader) {
-        super.onBeforeCompile(shader);
+export class PointMaterial extends GratingMaterial {
+    onBeforeCompile(shader, renderer) {
+        super.onBeforeCompile(shader, renderer);
         shader.vertexShader = "attribute vec2 place;\n" +
             shader.vertexShader.replace(/}\s*$/, "gl_Position = vec4(place, 0.0, 1.0);\n}");
-    }
-}
-
-class PointNodeMaterial extends GratingNodeMaterial {
-    setupModelViewProjection() {
-        return vec4(attribute("place", "vec2"), 0, 1);
-    }
-}
-
-/** Bakes a case once for all renderers. */
-class SharedRowland extends Rowland {
-    shared = new Map();
-    once(key, bake) {
-        if (!this.shared.has(key)) this.shared.set(key, bake());
-        return this.shared.get(key);
-    }
-    material(id, grating, efficiencies) {
-        return this.once(`material ${efficiencies !== undefined}`, () => super.material(id, grating, efficiencies));
-    }
-    solve(...of) {
-        return this.once("solve", () => super.solve(...of));
-    }
-    plane(...of) {
-        return this.once(`plane ${of.at(-1)}`, () => super.plane(...of));
-    }
-    arc(...of) {
-        return this.once("arc", () => super.arc(...of));
-    }
-    products(...of) {
-        return this.once("products", () => super.products(...of));
     }
 }
 
@@ -70,7 +33,7 @@ function geometry(frames, mirrored) {
     return result;
 }
 
-async function reference(rowland, { grating, frames }) {
+export async function reference(rowland, { grating, frames }) {
     const material = new GratingMaterial({ rowland, grating });
     const points = frames.flatMap(({ view, normal, grating }) => [...view, ...normal, ...grating]);
     const radiance = await material.reference(Float32Array.from(points));
@@ -100,7 +63,7 @@ async function pixelsOf(renderer, target) {
 }
 
 /** A tilted plane under a lamp, whose grooves vary within its pixels and from one to the next. */
-async function picture({ renderer, Plain }, rowland, { grating, picture: [width, height] }) {
+export async function picture({ renderer, Plain }, rowland, { grating, picture: [width, height] }) {
     const texels = Array.from({ length: 64 }, (_, i) => [(29 * i) % 255, i % 7 === 0 ? 0 : 128, 0, 255]);
     const grooves = new THREE.DataTexture(Uint8Array.from(texels.flat()), 8, 8);
     grooves.magFilter = THREE.LinearFilter;
@@ -125,10 +88,11 @@ async function picture({ renderer, Plain }, rowland, { grating, picture: [width,
     return pixelsOf(renderer, target);
 }
 
-async function radiance({ renderer, Material }, rowland, { grating, representation, frames, lamp, texels, mirrored }) {
+export async function radiance({ renderer, Material }, rowland, { grating, representation, frames, lamp, texels, mirrored }) {
     const scene = new THREE.Scene();
     const camera = new THREE.PerspectiveCamera();
-    const material = new Material({ rowland, grating, representation, grooveTexture: texels && grooveTexture(texels), side: THREE.DoubleSide });
+    const material = new Material({ rowland, grating, representation, grooveTexture: texels && grooveTexture(texels),
+        side: THREE.DoubleSide, specularIntensity: 0 }); // of lamps on the layer beneath
     material.state.options.set("ROWLAND_UNCOMPRESSED", "1");
     if (lamp) {
         const light = new THREE.DirectionalLight(new THREE.Color(...lamp.flux), 1);
@@ -151,75 +115,4 @@ async function radiance({ renderer, Material }, rowland, { grating, representati
     const pixels = await pixelsOf(renderer, target);
     material.dispose();
     return frames.map((_, i) => pixels[2 * i]);
-}
-
-/** Renderers by name; that on WebGPU only where the browser has it. */
-async function renderersOf(names) {
-    const all = {};
-    for (const name of names) {
-        if (name === "WebGLRenderer") {
-            all[name] = { renderer: new THREE.WebGLRenderer(), Material: PointMaterial, Plain: GratingMaterial };
-            continue;
-        }
-        const forceWebGL = name.endsWith("WebGL 2");
-        if (!forceWebGL && !(await navigator.gpu?.requestAdapter())) continue;
-        const renderer = new WebGPURenderer({ forceWebGL });
-        await renderer.init();
-        if (forceWebGL === (renderer.backend.isWebGPUBackend === true)) throw new Error(`${name}: the renderer took another back end`);
-        all[name] = { renderer, Material: PointNodeMaterial, Plain: GratingNodeMaterial };
-    }
-    return all;
-}
-
-/** What each material says under the renderer that cannot draw it, in two pictures. */
-async function refusals() {
-    const said = [];
-    const rowland = new Rowland();
-    rowland.onError = ({ message }) => said.push(message);
-    const grating = { grating: { pitch_nm: 1600, profile: { type: "slit", width_nm: 800 } } };
-    const nodes = new WebGPURenderer({ forceWebGL: true });
-    await nodes.init();
-    for (const [renderer, Material] of [[nodes, GratingMaterial], [new THREE.WebGLRenderer(), GratingNodeMaterial]]) {
-        renderer.setSize(1, 1);
-        const scene = new THREE.Scene();
-        scene.add(new THREE.Mesh(new THREE.PlaneGeometry(), new Material({ rowland, grating })));
-        for (let i = 0; i < 2; ++i)
-            try {
-                renderer.render(scene, new THREE.PerspectiveCamera().translateZ(1));
-            } catch {} // WebGLRenderer has no program for a class that it does not know
-    }
-    rowland.dispose();
-    return said;
-}
-
-const errors = []; // of shaders, which three logs
-for (const kind of ["error", "warn"]) {
-    const log = console[kind];
-    console[kind] = (...words) => {
-        errors.push(words.join(" "));
-        log(...words);
-    };
-}
-try {
-    const { probe, keyLights, renderers, cases } = await (await fetch("/task")).json();
-    const rowland = new SharedRowland();
-    rowland.onError = (error) => post({ error: error.message });
-    const loader = probe.endsWith(".exr") ? new EXRLoader() : new HDRLoader();
-    loader.setDataType(THREE.FloatType);
-    const light = await loader.loadAsync(probe);
-    // three takes a byte of a Radiance mantissa as n/255; the format and Rowland as n/256.
-    if (probe.endsWith(".hdr")) light.image.data = light.image.data.map((x) => (x * 255) / 256);
-    await rowland.setProbe(light, { keyLights });
-    const drawing = await renderersOf(renderers);
-    const results = [];
-    for (const one of cases) {
-        rowland.shared.clear();
-        const shown = {};
-        if (one.representation === "reference") shown.reference = await reference(rowland, one);
-        else for (const [name, by] of Object.entries(drawing)) shown[name] = await (one.picture ? picture : radiance)(by, rowland, one);
-        results.push(shown);
-    }
-    await post({ results, errors: [...errors], refusals: await refusals() });
-} catch (error) {
-    await post({ error: error.message + "\n" + error.stack, errors });
 }

@@ -117,6 +117,7 @@ vec3 grating_surface(vec3 base, vec3 mirrored) {
     return passed * (base_weight * base + diffracted) + mirror * mirrored;
 }
 
+#ifdef RE_Direct  // three's
 void RE_Direct_Grating(const in IncidentLight directLight, const in vec3 geometryPosition,
                        const in vec3 geometryNormal, const in vec3 geometryViewDir,
                        const in vec3 geometryClearcoatNormal, const in PhysicalMaterial material,
@@ -127,3 +128,4 @@ void RE_Direct_Grating(const in IncidentLight directLight, const in vec3 geometr
 }
 #undef RE_Direct
 #define RE_Direct RE_Direct_Grating
+#endif

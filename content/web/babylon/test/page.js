@@ -1,0 +1,71 @@
+// All that the tests draw, in one page: what they compare is posted to /result.
+import { Engine } from "@babylonjs/core/Engines/engine.js";
+import * as THREE from "../../three/node_modules/three/build/three.module.js";
+import { Rowland as ThreeRowland } from "../../three/dist/index.js";
+import { PointMaterial, radiance as radianceByThree } from "../../three/test/points.js";
+import { readPanorama, Rowland } from "../dist/index.js";
+import { panoramaOfDirections, radiance } from "./points.js";
+import { byBabylon, byThree } from "./scene.js";
+
+const post = (value) => fetch("/result", { method: "POST", body: JSON.stringify(value) });
+const pixelsOfUrl = async (url) => {
+    const image = Object.assign(new Image(), { src: url });
+    await image.decode();
+    return [...pixelsOf(image, image.width, image.height)];
+};
+
+async function rowlandUnder(Class, probe, keys) {
+    const rowland = new Class();
+    rowland.onError = (error) => errors.push(error.message);
+    await rowland.setProbe({ ...probe, texels: probe.texels.slice() }, { keyLights: "later" });
+    const found = keys ?? await rowland.fitKeyLights(16);
+    await rowland.setKeyLights(found);
+    return { rowland, keys: found };
+}
+
+try {
+    const { cases, mirrors, kinds } = await (await fetch("/task")).json();
+    const started = performance.now();
+    const times = {};
+    const took = (name) => (times[name] = Math.round(performance.now() - started));
+    const panorama = await readPanorama("light.hdr");
+    const { rowland, keys } = await rowlandUnder(Rowland, panorama);
+    took("light");
+    const engine = new Engine(document.createElement("canvas"), false);
+    const results = [];
+    for (const one of cases) results.push(await radiance(engine, rowland, one));
+    took("points");
+    const url = URL.createObjectURL(panoramaOfDirections(128, 64));
+    const mirrored = [];
+    for (const one of mirrors) mirrored.push(await radiance(engine, rowland, { ...one, mirrors: url }));
+    took("mirrors");
+    const three = await rowlandUnder(ThreeRowland, panorama, keys);
+    const renderer = new THREE.WebGLRenderer();
+    const byThreePoints = [];
+    for (const one of cases) byThreePoints.push(one.three ? await radianceByThree({ renderer, Material: PointMaterial }, three.rowland, one) : null);
+    took("three's points");
+    const scenes = { babylon: await byBabylon(rowland, "light.hdr", kinds), three: await byThree(three.rowland, panorama, kinds) };
+    took("scenes");
+    const pictures = {};
+    const diffracted = {};
+    for (const [name, { pictures: drawn }] of Object.entries(scenes)) {
+        diffracted[name] = await pixelsOfUrl(drawn.diffracted);
+        for (const [of, picture] of Object.entries(drawn)) pictures[`${name}_${of}`] = picture;
+    }
+    await import("../examples/disc.js");
+    const canvas = document.querySelector("canvas");
+    const begun = performance.now();
+    let green = 0; // fraction of the pixels, which neither the sky nor a disc without grooves has
+    while (green < 0.0005 && errors.length === 0 && performance.now() < begun + 120000) {
+        await new Promise(requestAnimationFrame);
+        const pixels = pixelsOf(canvas, canvas.width, canvas.height);
+        green = 0;
+        for (let i = 0; i < pixels.length; i += 4)
+            if (pixels[i + 1] > Math.max(pixels[i], pixels[i + 2]) + 20) green += 4 / pixels.length;
+    }
+    took("example");
+    pictures.disc = canvas.toDataURL("image/png");
+    await post({ errors, results, mirrored, byThree: byThreePoints, diffracted, pictures, green, times });
+} catch (error) {
+    await post({ errors: [...errors, error.message + "\n" + error.stack] });
+}
