@@ -2,7 +2,7 @@ import { Matrix4, MeshPhysicalMaterial, type BufferGeometry, type Mesh } from "t
 import type { GLTF, GLTFLoaderPlugin, GLTFParser } from "three/examples/jsm/loaders/GLTFLoader.js";
 import { FilmMaterial, type FilmParameters } from "./film_material.js";
 import { flatNormal } from "./frames.js";
-import type { GratingParameters } from "./graded.js";
+import type { GratingParameters } from "./with_grating.js";
 import { GratingMaterial } from "./material.js";
 import type { Rowland } from "./rowland.js";
 

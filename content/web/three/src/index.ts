@@ -1,5 +1,5 @@
 export { GratingMaterial } from "./material.js";
-export type { GratingParameters } from "./graded.js";
+export type { GratingParameters } from "./with_grating.js";
 export type { Representation } from "./surface.js";
 export { FilmMaterial, type FilmParameters } from "./film_material.js";
 export { FilmExtension, GratingExtension } from "./gltf.js";

@@ -4,7 +4,7 @@ import {
 } from "three";
 import { FRAGMENT, VERTEX } from "./generated/shaders.js";
 import { fit } from "./limits.js";
-import { graded, type GratingParameters } from "./graded.js";
+import { withGrating, type GratingParameters } from "./with_grating.js";
 
 const UNIFORMS = [...(VERTEX + FRAGMENT).matchAll(/\buniform \w+ (\w+)|\bSTORAGE\(\d+,\w+,\w+,(\w+)\)/g)]
     .map(([, plain, stored]) => plain ?? stored);
@@ -15,7 +15,7 @@ type Hooks = Pick<MeshPhysicalMaterial, "onBeforeCompile" | "onBeforeRender" | "
  * MeshPhysicalMaterial of WebGLRenderer under a diffraction grating. The physical material is the layer beneath it.
  * `rowland`'s probe and three's lights light both; until the first map or table arrives, only the layer is drawn.
  */
-export class GratingMaterial extends graded(MeshPhysicalMaterial) {
+export class GratingMaterial extends withGrating(MeshPhysicalMaterial) {
     private applied: string[] = []; // options that are defines
     private stale = false; // values that the program in use may lack
     /** What a page sets: onBeforeCompile and others, which follow the material's own. Set before fields are. */

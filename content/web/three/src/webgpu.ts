@@ -1,5 +1,5 @@
 export { GratingNodeMaterial } from "./node/material.js";
-export type { GratingParameters } from "./graded.js";
+export type { GratingParameters } from "./with_grating.js";
 export type { Representation } from "./surface.js";
 export { Rowland } from "./probe.js";
 export type { Efficiencies } from "./rowland.js";

@@ -4,7 +4,7 @@ import {
     positionViewDirection, vec3, vec4,
 } from "three/tsl";
 import { EnvironmentNode, MeshPhysicalNodeMaterial, PhysicalLightingModel, type Node, type NodeBuilder } from "three/webgpu";
-import { graded, type GratingParameters } from "../graded.js";
+import { withGrating, type GratingParameters } from "../with_grating.js";
 import { Program, type Vec3 } from "./program.js";
 import { in_probe, surface, type Surface } from "./surface.js";
 
@@ -60,7 +60,7 @@ class MirroredEnvironment extends EnvironmentNode {
  * GratingMaterial for WebGPURenderer, on WebGPU and on its WebGL 2 back end: MeshPhysicalNodeMaterial under a diffraction
  * grating, with the parameters and the workers of GratingMaterial.
  */
-export class GratingNodeMaterial extends graded(MeshPhysicalNodeMaterial) {
+export class GratingNodeMaterial extends withGrating(MeshPhysicalNodeMaterial) {
     // A leading underscore keeps a member out of NodeMaterial's copy() and of its cache key.
     private readonly _program = new Program(this.state);
     private _eachFrame?: Node; // three updates a material each frame if a node is among its members

@@ -8,8 +8,8 @@ export interface GratingParameters extends MeshPhysicalMaterialParameters, Grati
 /** A class of physical materials: MeshPhysicalMaterial, or that of another renderer. TypeScript wants `any` of mixins. */
 type Physical = new (...parameters: any[]) => Material & Pick<MeshPhysicalMaterial, "color" | "roughness">;
 
-/** The class with a GratingState, and with what a page asks of it. A subclass does what its renderer needs. */
-export function graded<Base extends Physical>(base: Base) {
+/** The class with a GratingState, and what a page asks of it. A subclass does what its renderer needs. */
+export function withGrating<Base extends Physical>(base: Base) {
     return class extends base implements GratingOwner {
         readonly isGratingMaterial = true;
         readonly state: GratingState = new GratingState(this);
