@@ -6,13 +6,13 @@ import { tmpdir } from "node:os";
 import { join } from "node:path";
 import test from "node:test";
 import { chromium, packageFolder } from "./browser.mjs";
-import { copyWorker, example, linkThree, pack, pageOf, pictures, unpack, withoutBundler } from "./builds/apps.mjs";
+import { copyWorker, example, linkThree, pack, pageOf, pictures, unpack, webgpuExample, withoutBundler } from "./builds/apps.mjs";
 
 const missing = !existsSync(packageFolder + "dist/bake.wasm") ? "needs dist: npm run build" : false;
 
-test("the example is the README's", () => {
-    const [, lines] = /```js\n(.*?)```/s.exec(readFileSync(packageFolder + "README.md", "utf8"));
-    assert.equal(readFileSync(packageFolder + "examples/disc.js", "utf8"), lines);
+test("the examples are the README's", () => {
+    const lines = [...readFileSync(packageFolder + "README.md", "utf8").matchAll(/```js\n(.*?)```/gs)].map(([, text]) => text);
+    for (const name of ["disc.js", "webgpu.js"]) assert.ok(lines.includes(readFileSync(packageFolder + "examples/" + name, "utf8")), name);
 });
 
 /** The policy of the README. */
@@ -105,7 +105,7 @@ test("the packed package", { skip: missing }, async (t) => {
         });
         const same = "shows the same disc by import maps, esbuild under a strict policy, Rollup and Vite";
         await t.test(same, { skip: chromium() ? false : "needs Chromium" }, async (t) => {
-            const pages = { plain: withoutBundler(folder) };
+            const pages = { plain: withoutBundler(folder), webgpu: webgpuExample(folder) };
             for (const [name, build] of Object.entries(BUNDLERS)) {
                 example(join(folder, name));
                 const start = performance.now();
@@ -113,7 +113,7 @@ test("the packed package", { skip: missing }, async (t) => {
                 t.diagnostic(`${name}: built in ${((performance.now() - start) / 1000).toFixed(1)} s`);
             }
             const headers = (path) => (path.startsWith("/esbuild/") ? { "content-security-policy": POLICY } : {});
-            const { without_worker, ...shown } = await pictures(folder, pages, { headers });
+            const { without_worker, webgpu, ...shown } = await pictures(folder, pages, { headers });
             const { colour, pixels, url } = shown.plain;
             const { PICTURES } = process.env;
             if (PICTURES) writeFileSync(join(PICTURES, "disc.png"), Buffer.from(url.split(",")[1], "base64"));
@@ -122,6 +122,9 @@ test("the packed package", { skip: missing }, async (t) => {
                 assert.deepEqual(one.errors, [], name);
                 assert.deepEqual(one.pixels, pixels, name);
             }
+            // On WebGL 2, which WebGPURenderer takes here: no canvas of WebGPU can be read without a GPU.
+            assert.deepEqual(webgpu.errors, []);
+            assert.ok(webgpu.colour > 3, `colours of ${webgpu.colour}`);
             assert.match(without_worker.errors[0], /worker\.js did not start/);
         });
     } finally {

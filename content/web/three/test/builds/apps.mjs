@@ -49,6 +49,14 @@ export function withoutBundler(folder, three = "three") {
     return `plain_${three}/index.html`;
 }
 
+/** The README's page of WebGPURenderer, likewise. */
+export function webgpuExample(folder) {
+    mkdirSync(join(folder, "webgpu"), { recursive: true });
+    cpSync(packageFolder + "examples/webgpu.js", join(folder, "webgpu/webgpu.js"));
+    cpSync(packageFolder + "examples/webgpu.html", join(folder, "webgpu/index.html"));
+    return "webgpu/index.html";
+}
+
 const DRIVERS = ["picture_driver.js", "builds/frame_driver.js"].map((name) => packageFolder + "test/" + name);
 
 /** A page's text with the drivers before its own scripts. `tag`: of the path of one. */
