@@ -71,6 +71,14 @@ test("the page draws on demand, outlives a lost context and names a broken file"
     assert.ok(Math.abs(restored.colour - first.colour) < 0.1 * first.colour, `${restored.colour} after ${first.colour}`);
 });
 
+test("films are shown, and a slider makes the bubble thinner", { skip: missing }, async (t) => {
+    const { pieces, pictures, changed } = await visit("films", "scene=films");
+    assert.deepEqual(pieces, ["bubble", "ring", "lens 1", "bare lens 1", "oil on water"]);
+    assert.ok(pictures.first.colour > 2, `colours of ${pictures.first.colour}`);
+    t.diagnostic(`${changed} of the picture changed`);
+    assert.ok(changed > 0.003 && changed < 0.05, "the bubble alone has other colours");
+});
+
 test("fingers turn a disc, orbit and zoom", { skip: missing }, async (t) => {
     const { turn, orbit, pinch } = (await visit("touch", "scene=samples", "800,600")).touches;
     t.diagnostic(JSON.stringify({ turn, orbit, pinch }));

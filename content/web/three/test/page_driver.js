@@ -100,6 +100,9 @@ async function touches() {
     };
 }
 
+/** The names of the scene's pieces. */
+const pieces = () => [...document.getElementById("sample").options].map(({ text }) => text);
+
 /** The names in the cabinet, and the pose before and after a drag of its record. */
 async function turnedRecord() {
     const record = [innerWidth * 0.31, innerHeight * 0.4];
@@ -109,7 +112,7 @@ async function turnedRecord() {
     pointer("pointermove", record[0] + 50, record[1], 1);
     pointer("pointerup", record[0] + 50, record[1]);
     await until("a frame after the drag", () => frames() > drawn);
-    return { pieces: [...document.getElementById("sample").options].map(({ text }) => text), before, after: pose() };
+    return { pieces: pieces(), before, after: pose() };
 }
 
 /** The context is lost and comes back: what the page says meanwhile. */
@@ -169,6 +172,19 @@ async function visit() {
         result.lost = await lose();
         await show("restored");
         return post(result);
+    }
+    if (limits.has("films")) {
+        await settled();
+        const first = await show("first");
+        const thickness = document.querySelector("#sliders input");
+        thickness.value = 0.4 * thickness.value;
+        thickness.dispatchEvent(new Event("input"));
+        const drawn = frames();
+        await until("the thinner film", () => frames() > drawn);
+        await settled();
+        const thinner = await show("thinner");
+        const changed = [...first.data.keys()].filter((i) => Math.abs(first.data[i] - thinner.data[i]) > 8).length / first.data.length;
+        return post({ ...result, pieces: pieces(), changed });
     }
     if (limits.has("touch")) return post({ ...result, touches: await touches() });
     await settled();
