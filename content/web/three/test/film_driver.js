@@ -21,7 +21,7 @@ try {
     const renderer = new THREE.WebGLRenderer();
     const rowland = new Rowland();
     rowland.onError = (error) => post({ error: error.message });
-    const white = new THREE.DataTexture(new Float32Array(4 * 8 * 4).fill(1), 8, 4, THREE.RGBAFormat, THREE.FloatType);
+    const white = new THREE.DataTexture(new Float32Array(4 * 64 * 32).fill(1), 64, 32, THREE.RGBAFormat, THREE.FloatType);
     Object.assign(white, { mapping: THREE.EquirectangularReflectionMapping, needsUpdate: true });
     const target = new THREE.WebGLRenderTarget(1, 1, { type: THREE.FloatType });
     const results = [];
