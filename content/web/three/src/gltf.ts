@@ -1,65 +1,13 @@
-import { Matrix4, MeshPhysicalMaterial, type BufferGeometry, type Mesh } from "three";
-import type { GLTF, GLTFLoaderPlugin, GLTFParser } from "three/examples/jsm/loaders/GLTFLoader.js";
+import type { MeshPhysicalMaterial } from "three";
+import type { GLTFLoaderPlugin, GLTFParser } from "three/examples/jsm/loaders/GLTFLoader.js";
 import { FilmMaterial, type FilmParameters } from "./film_material.js";
-import { flatNormal } from "./frames.js";
-import type { GratingParameters } from "./with_grating.js";
+import { askFirst, GratingPlugin } from "./gltf_plugin.js";
 import { GratingMaterial } from "./material.js";
 import type { Rowland } from "./rowland.js";
 
-const IDENTITY = new Matrix4();
-
-/** Asks this plug-in for a material's type first: the first answer holds, and three's plug-ins answer for their extensions. */
-function askFirst(parser: GLTFParser, { name }: GLTFLoaderPlugin): void {
-    const { [name]: own, ...others } = parser.plugins;
-    parser.plugins = { [name]: own, ...others };
-}
-
 /** The plug-in of GLTFLoader for ROWLAND_materials_diffraction: loader.register((parser) => new GratingExtension(parser, rowland)). */
-export class GratingExtension implements GLTFLoaderPlugin {
-    readonly name = "ROWLAND_materials_diffraction";
-
-    constructor(private readonly parser: GLTFParser, private readonly rowland: Rowland) {}
-
-    beforeRoot(): null {
-        askFirst(this.parser, this);
-        return null;
-    }
-
-    private grating(material: number): object | undefined {
-        return this.parser.json.materials[material].extensions?.[this.name];
-    }
-
-    getMaterialType(material: number): typeof MeshPhysicalMaterial | null {
-        return this.grating(material) ? (GratingMaterial as unknown as typeof MeshPhysicalMaterial) : null;
-    }
-
-    async extendMaterialParams(material: number, parameters: GratingParameters): Promise<void> {
-        const grating = this.grating(material) as { grooveTexture?: { index: number } } | undefined;
-        if (!grating) return;
-        Object.assign(parameters, { grating, rowland: this.rowland });
-        if (grating.grooveTexture) await this.parser.assignTexture(parameters, "grooveTexture", grating.grooveTexture);
-    }
-
-    /** Gives each mesh a material, so that flat ones keep their maps beside curved ones; flat parts that face one way share one. */
-    async afterRoot(gltf: GLTF): Promise<void> {
-        const seen = new Set<GratingMaterial>();
-        for (const scene of gltf.scenes)
-            scene.traverse((parent) => {
-                const facing = new Map<string, GratingMaterial>();
-                for (const object of parent.children) {
-                    const mesh = object as Mesh<BufferGeometry, GratingMaterial>;
-                    if (!mesh.material?.isGratingMaterial) continue;
-                    mesh.updateMatrix();
-                    const flat = mesh.isMesh && mesh.matrix.equals(IDENTITY) ? flatNormal(mesh.geometry) : null;
-                    const key = `${mesh.material.uuid} ${flat?.toArray().map((x) => x.toFixed(3))}`;
-                    const shared = flat && facing.get(key);
-                    if (!shared && seen.has(mesh.material)) mesh.material = mesh.material.clone();
-                    if (shared) mesh.material = shared;
-                    seen.add(mesh.material);
-                    if (flat) facing.set(key, mesh.material);
-                }
-            });
-    }
+export class GratingExtension extends GratingPlugin {
+    protected readonly type = GratingMaterial;
 }
 
 interface Iridescence {

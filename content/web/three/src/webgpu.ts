@@ -1,4 +1,5 @@
 export { GratingNodeMaterial } from "./node/material.js";
+export { GratingExtension } from "./node/gltf.js";
 export type { GratingParameters } from "./with_grating.js";
 export type { Representation } from "./surface.js";
 export { Rowland } from "./probe.js";

@@ -7,6 +7,7 @@ import { join } from "node:path";
 import test from "node:test";
 import { GLTFLoader } from "three/examples/jsm/loaders/GLTFLoader.js";
 import { FilmExtension, GratingExtension, Rowland } from "../dist/index.js";
+import { GratingExtension as GratingNodeExtension } from "../dist/webgpu.js";
 import { chromium, resultOf } from "./browser.mjs";
 
 const trade = process.env.ROWLAND_TRADE;
@@ -99,12 +100,17 @@ test("materials of a glTF are gratings and films, whatever other extensions they
     const beside = { KHR_materials_ior: { ior: 1.4 }, KHR_materials_clearcoat: { clearcoatFactor: 0.5 } };
     const materials = [{ extensions: { ...beside, ROWLAND_materials_diffraction: grating } },
         { extensions: { ...beside, KHR_materials_iridescence: { iridescenceFactor: 0.7, iridescenceIor: 2 } } }];
-    const loader = new GLTFLoader();
-    loader.register((parser) => new GratingExtension(parser, rowland));
-    loader.register((parser) => new FilmExtension(parser, rowland));
-    const { parser } = await loader.parseAsync(JSON.stringify({ asset: { version: "2.0" }, materials }), "");
-    const [first, second] = await Promise.all([0, 1].map((i) => parser.getDependency("material", i)));
-    assert.ok(first.isGratingMaterial && first.clearcoat === 0.5);
-    assert.ok(second.isFilmMaterial && second.ior === 1.4 && second.iridescence === 0.7);
-    assert.deepEqual(second.film.film, { ior: 2, thickness_nm: 400 });
+    const read = async (Extension, index) => {
+        const loader = new GLTFLoader().register((parser) => new Extension(parser, rowland)).register((parser) => new FilmExtension(parser, rowland));
+        const { parser } = await loader.parseAsync(JSON.stringify({ asset: { version: "2.0" }, materials }), "");
+        return parser.getDependency("material", index);
+    };
+    for (const [Extension, type] of [[GratingExtension, "GratingMaterial"], [GratingNodeExtension, "GratingNodeMaterial"]]) {
+        const material = await read(Extension, 0);
+        assert.ok(material.isGratingMaterial && material.clearcoat === 0.5 && material.ior === 1.4);
+        assert.equal(material.constructor.name, type);
+    }
+    const film = await read(GratingExtension, 1);
+    assert.ok(film.isFilmMaterial && film.ior === 1.4 && film.iridescence === 0.7);
+    assert.deepEqual(film.film.film, { ior: 2, thickness_nm: 400 });
 });

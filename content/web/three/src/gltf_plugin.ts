@@ -1,0 +1,64 @@
+import { Matrix4, type BufferGeometry, type Mesh, type MeshPhysicalMaterial } from "three";
+import type { GLTF, GLTFLoaderPlugin, GLTFParser } from "three/examples/jsm/loaders/GLTFLoader.js";
+import { flatNormal } from "./frames.js";
+import type { Rowland } from "./rowland.js";
+import type { GratingParameters } from "./with_grating.js";
+
+const IDENTITY = new Matrix4();
+
+/** Asks this plug-in for a material's type first: the first answer holds, and three's plug-ins answer for their extensions. */
+export function askFirst(parser: GLTFParser, { name }: GLTFLoaderPlugin): void {
+    const { [name]: own, ...others } = parser.plugins;
+    parser.plugins = { [name]: own, ...others };
+}
+
+type Grating = MeshPhysicalMaterial & { isGratingMaterial?: boolean };
+
+/** A plug-in of GLTFLoader for ROWLAND_materials_diffraction, with a class of materials. */
+export abstract class GratingPlugin implements GLTFLoaderPlugin {
+    readonly name = "ROWLAND_materials_diffraction";
+    protected abstract readonly type: unknown;
+
+    constructor(private readonly parser: GLTFParser, private readonly rowland: Rowland) {}
+
+    beforeRoot(): null {
+        askFirst(this.parser, this);
+        return null;
+    }
+
+    private grating(material: number): object | undefined {
+        return this.parser.json.materials[material].extensions?.[this.name];
+    }
+
+    getMaterialType(material: number): typeof MeshPhysicalMaterial | null {
+        return this.grating(material) ? (this.type as typeof MeshPhysicalMaterial) : null;
+    }
+
+    async extendMaterialParams(material: number, parameters: GratingParameters): Promise<void> {
+        const grating = this.grating(material) as { grooveTexture?: { index: number } } | undefined;
+        if (!grating) return;
+        Object.assign(parameters, { grating, rowland: this.rowland });
+        if (grating.grooveTexture) await this.parser.assignTexture(parameters, "grooveTexture", grating.grooveTexture);
+    }
+
+    /** Gives each mesh a material, so that flat ones keep their maps beside curved ones; flat parts that face one way share one. */
+    async afterRoot(gltf: GLTF): Promise<void> {
+        const seen = new Set<Grating>();
+        for (const scene of gltf.scenes)
+            scene.traverse((parent) => {
+                const facing = new Map<string, Grating>();
+                for (const object of parent.children) {
+                    const mesh = object as Mesh<BufferGeometry, Grating>;
+                    if (!mesh.material?.isGratingMaterial) continue;
+                    mesh.updateMatrix();
+                    const flat = mesh.isMesh && mesh.matrix.equals(IDENTITY) ? flatNormal(mesh.geometry) : null;
+                    const key = `${mesh.material.uuid} ${flat?.toArray().map((x) => x.toFixed(3))}`;
+                    const shared = flat && facing.get(key);
+                    if (!shared && seen.has(mesh.material)) mesh.material = mesh.material.clone();
+                    if (shared) mesh.material = shared;
+                    seen.add(mesh.material);
+                    if (flat) facing.set(key, mesh.material);
+                }
+            });
+    }
+}
