@@ -22,6 +22,7 @@ vec3 film_over(vec3 bare, vec3 film, PhysicalMaterial material) {
 // The material without a film, with a Fresnel term of `f0` to `f90`.
 PhysicalMaterial without_film(PhysicalMaterial material, vec3 f0, float f90) {
     material.iridescence = 0.0;
+    material.metalness = 0.0;  // whose colour is in f0
     material.specularColor = f0;
     material.specularColorBlended = f0;
     material.specularF90 = f90;
