@@ -2,6 +2,7 @@ import { Matrix4, type BufferGeometry, type Mesh, type MeshPhysicalMaterial } fr
 import type { GLTF, GLTFLoaderPlugin, GLTFParser } from "three/examples/jsm/loaders/GLTFLoader.js";
 import { flatNormal } from "./frames.js";
 import type { Rowland } from "./rowland.js";
+import type { FilmParameters } from "./with_film.js";
 import type { GratingParameters } from "./with_grating.js";
 
 const IDENTITY = new Matrix4();
@@ -60,5 +61,51 @@ export abstract class GratingPlugin implements GLTFLoaderPlugin {
                     if (flat) facing.set(key, mesh.material);
                 }
             });
+    }
+}
+
+interface Iridescence {
+    readonly iridescenceFactor?: number;
+    readonly iridescenceTexture?: { index: number };
+    readonly iridescenceIor?: number;
+    readonly iridescenceThicknessMinimum?: number;
+    readonly iridescenceThicknessMaximum?: number;
+    readonly iridescenceThicknessTexture?: { index: number };
+    readonly extras?: { readonly metal?: string; readonly base?: object; readonly illuminant?: string };
+}
+
+/** A plug-in of GLTFLoader for KHR_materials_iridescence, with a class of materials. */
+export abstract class FilmPlugin implements GLTFLoaderPlugin {
+    readonly name = "KHR_materials_iridescence";
+    protected abstract readonly type: unknown;
+
+    constructor(private readonly parser: GLTFParser, private readonly rowland: Rowland) {}
+
+    beforeRoot(): null {
+        askFirst(this.parser, this);
+        return null;
+    }
+
+    private material(index: number) {
+        return this.parser.json.materials[index];
+    }
+
+    getMaterialType(index: number): typeof MeshPhysicalMaterial | null {
+        return this.material(index).extensions?.[this.name] ? (this.type as typeof MeshPhysicalMaterial) : null;
+    }
+
+    async extendMaterialParams(index: number, parameters: FilmParameters): Promise<void> {
+        const { extensions, pbrMetallicRoughness = {} } = this.material(index);
+        const iridescence = extensions?.[this.name] as Iridescence | undefined;
+        if (!iridescence) return;
+        const { iridescenceIor: ior = 1.3, iridescenceThicknessMinimum: least = 100, iridescenceThicknessMaximum: most = 400, extras = {} } = iridescence;
+        parameters.iridescence = iridescence.iridescenceFactor ?? 0;
+        parameters.iridescenceThicknessRange = [least, most];
+        if (iridescence.iridescenceTexture) await this.parser.assignTexture(parameters, "iridescenceMap", iridescence.iridescenceTexture);
+        if (iridescence.iridescenceThicknessTexture)
+            await this.parser.assignTexture(parameters, "iridescenceThicknessMap", iridescence.iridescenceThicknessTexture);
+        const { metal, base, illuminant } = extras;
+        parameters.film = { film: { ior, thickness_nm: most }, metal, base, illuminant, roughness: pbrMetallicRoughness.roughnessFactor ?? 1 };
+        parameters.rowland = this.rowland;
     }
 }

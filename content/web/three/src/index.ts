@@ -1,7 +1,8 @@
 export { GratingMaterial } from "./material.js";
 export type { GratingParameters } from "./with_grating.js";
 export type { Representation } from "./surface.js";
-export { FilmMaterial, type FilmParameters } from "./film_material.js";
+export { FilmMaterial } from "./film_material.js";
+export type { FilmParameters } from "./with_film.js";
 export { FilmExtension, GratingExtension } from "./gltf.js";
 export { Rowland } from "./probe.js";
 export type { Efficiencies, Panorama } from "./rowland.js";
