@@ -10,10 +10,10 @@
 namespace rowland::web {
 
 /// Of a film material file's JSON, as JSON.stringify() gives it: film_path and film_axes of film_lookup.glsl, whether
-/// rows are roughnesses, the thickness of the outermost layer, the roughness, the table's largest error, width and
-/// height of the texture; then its texels, RGBA. From `thinnest_nm` to the file's thickness, and from `smoothest` to
-/// its roughness, a texture varies them; one of the ranges must be empty. A negative limit: no texture does. `red`,
-/// `green`, `blue`: the base's reflectance at normal incidence in place of the file's base, unless `red` is negative.
+/// rows are roughnesses, the table's largest error, width and height of the texture; then its texels, RGBA. From
+/// `thinnest_nm` to the file's thickness, and from `smoothest` to its roughness, a texture varies them; one of the
+/// ranges must be empty. A negative limit: no texture does. `red`, `green`, `blue`: the base's reflectance at normal
+/// incidence instead of the file's base, unless `red` is negative.
 ROWLAND_EXPORT(film_table)
 Numbers* film_table(const char* json, std::size_t size, double thinnest_nm, double smoothest, double red, double green,
                     double blue) {
@@ -24,15 +24,11 @@ Numbers* film_table(const char* json, std::size_t size, double thinnest_nm, doub
     if (red >= 0.0) material.film.base = NormalReflectance{.rgb = {red, green, blue}};
     const FilmTable table = bake_film(material);
     const FilmAxes axes = film_axes(table);
-    const int slices = 3 * table.layers;
-    const bool line = is_line(table);
     auto* numbers = new Numbers;
     append(axes.path, *numbers);
     append(axes.axes, *numbers);
-    append(glm::vec4(has_roughnesses(table) ? 1 : 0, material.range.thickest_nm, material.range.roughest,
-                     table.error.largest),
-           *numbers);
-    append(line ? glm::vec2(slices * table.columns, 1) : glm::vec2(table.columns, table.rows * slices), *numbers);
+    append(glm::vec2(has_roughnesses(table) ? 1 : 0, table.error.largest), *numbers);
+    append(glm::vec2(texture_size(table)), *numbers);
     for (const glm::vec4& texel : working_columns(table, glm::inverse(colour::rec709_to_xyz())))
         append(texel, *numbers);
     return numbers;

@@ -1,5 +1,5 @@
 // Writes the static site: node build.mjs FOLDER PACKAGE, the package built.
-import { cpSync, mkdirSync, readFileSync, writeFileSync } from "node:fs";
+import { cpSync, mkdirSync, readdirSync, readFileSync, writeFileSync } from "node:fs";
 import { createRequire } from "node:module";
 import { fileURLToPath, pathToFileURL } from "node:url";
 
@@ -61,6 +61,6 @@ buildSync({ ...options, entryPoints: [here + "page.ts"], define: builtIn, outfil
 buildSync({ ...options, entryPoints: [from + "/dist/worker.js"], outfile: out + "/worker.js" });
 for (const file of ["index.html", "page.css", "cabinet.glb"]) cpSync(here + file, `${out}/${file}`);
 cpSync(here + "../../scenes/films.glb", `${out}/films.glb`);
-for (const file of ["bake.wasm", "keys.wasm", "arc.wasm", "reference.wasm", "solve.wasm", "film.wasm"]) cpSync(`${from}/dist/${file}`, `${out}/${file}`);
+for (const file of readdirSync(from + "/dist").filter((name) => name.endsWith(".wasm"))) cpSync(`${from}/dist/${file}`, `${out}/${file}`);
 for (const file of ["draco_decoder.wasm", "draco_wasm_wrapper.js"])
     cpSync(`${from}/node_modules/three/examples/jsm/libs/draco/gltf/${file}`, `${out}/draco/${file}`);

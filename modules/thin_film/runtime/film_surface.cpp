@@ -24,12 +24,11 @@ namespace {
 
 /// In 32-bit floats: software renderers read them faster than halves.
 gpu::Texture upload(const FilmTable& table, const glm::dmat3& xyz_to_working) {
-    const int slices = 3 * table.layers;
-    const bool line = is_line(table);
-    gpu::Texture texture({.kind = line ? gpu::TextureKind::Line : gpu::TextureKind::Plane,
+    const glm::ivec2 size = texture_size(table);
+    gpu::Texture texture({.kind = is_line(table) ? gpu::TextureKind::Line : gpu::TextureKind::Plane,
                           .format = gpu::Format::RGBA32F,
-                          .width = line ? slices * table.columns : table.columns,
-                          .height = line ? 1 : table.rows * slices});
+                          .width = size.x,
+                          .height = size.y});
     texture.upload(std::span<const glm::vec4>(working_columns(table, xyz_to_working)));
     return texture;
 }

@@ -28,6 +28,11 @@ std::vector<glm::vec4> working_columns(const FilmTable& table, const glm::dmat3&
     return columns;
 }
 
+glm::ivec2 texture_size(const FilmTable& table) {
+    const int slices = 3 * table.layers;
+    return is_line(table) ? glm::ivec2(slices * table.columns, 1) : glm::ivec2(table.columns, table.rows * slices);
+}
+
 namespace {
 
 /// Scale and bias that map begin and end to the centres of the first and the last of `nodes` texels.

@@ -19,6 +19,9 @@ bool has_roughnesses(const FilmTable& table);
 /// Fourth components: reflectance of white.
 std::vector<glm::vec4> working_columns(const FilmTable& table, const glm::dmat3& xyz_to_working);
 
+/// Width and height of the texture of working_columns().
+glm::ivec2 texture_size(const FilmTable& table);
+
 /// film_path and film_axes of the shader.
 struct FilmAxes {
     glm::vec4 path;

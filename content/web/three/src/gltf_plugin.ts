@@ -7,36 +7,37 @@ import type { GratingParameters } from "./with_grating.js";
 
 const IDENTITY = new Matrix4();
 
-/** Asks this plug-in for a material's type first: the first answer holds, and three's plug-ins answer for their extensions. */
-export function askFirst(parser: GLTFParser, { name }: GLTFLoaderPlugin): void {
-    const { [name]: own, ...others } = parser.plugins;
-    parser.plugins = { [name]: own, ...others };
-}
-
-type Grating = MeshPhysicalMaterial & { isGratingMaterial?: boolean };
-
-/** A plug-in of GLTFLoader for ROWLAND_materials_diffraction, with a class of materials. */
-export abstract class GratingPlugin implements GLTFLoaderPlugin {
-    readonly name = "ROWLAND_materials_diffraction";
+/** A plug-in of GLTFLoader for an extension of materials, with a class of materials. */
+abstract class MaterialPlugin implements GLTFLoaderPlugin {
+    abstract readonly name: string;
     protected abstract readonly type: unknown;
 
-    constructor(private readonly parser: GLTFParser, private readonly rowland: Rowland) {}
+    constructor(protected readonly parser: GLTFParser, protected readonly rowland: Rowland) {}
 
+    /** Comes before others that are asked for a material's type: the first answer holds, and three's plug-ins answer for theirs. */
     beforeRoot(): null {
-        askFirst(this.parser, this);
+        const { [this.name]: own, ...others } = this.parser.plugins;
+        this.parser.plugins = { [this.name]: own, ...others };
         return null;
     }
 
-    private grating(material: number): object | undefined {
+    protected extension(material: number): object | undefined {
         return this.parser.json.materials[material].extensions?.[this.name];
     }
 
     getMaterialType(material: number): typeof MeshPhysicalMaterial | null {
-        return this.grating(material) ? (this.type as typeof MeshPhysicalMaterial) : null;
+        return this.extension(material) ? (this.type as typeof MeshPhysicalMaterial) : null;
     }
+}
+
+type Grating = MeshPhysicalMaterial & { isGratingMaterial?: boolean };
+
+/** That for ROWLAND_materials_diffraction. */
+export abstract class GratingPlugin extends MaterialPlugin {
+    readonly name = "ROWLAND_materials_diffraction";
 
     async extendMaterialParams(material: number, parameters: GratingParameters): Promise<void> {
-        const grating = this.grating(material) as { grooveTexture?: { index: number } } | undefined;
+        const grating = this.extension(material) as { grooveTexture?: { index: number } } | undefined;
         if (!grating) return;
         Object.assign(parameters, { grating, rowland: this.rowland });
         if (grating.grooveTexture) await this.parser.assignTexture(parameters, "grooveTexture", grating.grooveTexture);
@@ -74,29 +75,12 @@ interface Iridescence {
     readonly extras?: { readonly metal?: string; readonly base?: object; readonly illuminant?: string };
 }
 
-/** A plug-in of GLTFLoader for KHR_materials_iridescence, with a class of materials. */
-export abstract class FilmPlugin implements GLTFLoaderPlugin {
+/** That for KHR_materials_iridescence. */
+export abstract class FilmPlugin extends MaterialPlugin {
     readonly name = "KHR_materials_iridescence";
-    protected abstract readonly type: unknown;
 
-    constructor(private readonly parser: GLTFParser, private readonly rowland: Rowland) {}
-
-    beforeRoot(): null {
-        askFirst(this.parser, this);
-        return null;
-    }
-
-    private material(index: number) {
-        return this.parser.json.materials[index];
-    }
-
-    getMaterialType(index: number): typeof MeshPhysicalMaterial | null {
-        return this.material(index).extensions?.[this.name] ? (this.type as typeof MeshPhysicalMaterial) : null;
-    }
-
-    async extendMaterialParams(index: number, parameters: FilmParameters): Promise<void> {
-        const { extensions, pbrMetallicRoughness = {} } = this.material(index);
-        const iridescence = extensions?.[this.name] as Iridescence | undefined;
+    async extendMaterialParams(material: number, parameters: FilmParameters): Promise<void> {
+        const iridescence = this.extension(material) as Iridescence | undefined;
         if (!iridescence) return;
         const { iridescenceIor: ior = 1.3, iridescenceThicknessMinimum: least = 100, iridescenceThicknessMaximum: most = 400, extras = {} } = iridescence;
         parameters.iridescence = iridescence.iridescenceFactor ?? 0;
@@ -105,6 +89,7 @@ export abstract class FilmPlugin implements GLTFLoaderPlugin {
         if (iridescence.iridescenceThicknessTexture)
             await this.parser.assignTexture(parameters, "iridescenceThicknessMap", iridescence.iridescenceThicknessTexture);
         const { metal, base, illuminant } = extras;
+        const { pbrMetallicRoughness = {} } = this.parser.json.materials[material];
         parameters.film = { film: { ior, thickness_nm: most }, metal, base, illuminant, roughness: pbrMetallicRoughness.roughnessFactor ?? 1 };
         parameters.rowland = this.rowland;
     }

@@ -253,13 +253,13 @@ export class Tasks {
         const address = module.put(text);
         const numbers = module.numbers("film_table", address, text.length, thinnest_nm, smoothest, ...base);
         module.call("give_back", address);
-        const [width, height] = numbers.subarray(12);
+        const [width, height] = numbers.subarray(10);
         return {
             path: [...numbers.subarray(0, 4)] as FilmTable["path"],
             axes: [...numbers.subarray(4, 8)] as FilmTable["axes"],
             byRoughness: numbers[8] === 1,
-            error: numbers[11],
-            table: { width, height, depth: 1, texels: Uint16Array.from(numbers.subarray(14), toHalf), scale: 1 },
+            error: numbers[9],
+            table: { width, height, depth: 1, texels: Uint16Array.from(numbers.subarray(12), toHalf), scale: 1 },
         };
     }
 

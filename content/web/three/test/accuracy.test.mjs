@@ -57,7 +57,7 @@ for (const [probe, cases, renderers] of [["venice_sunset_256.hdr", CASES, RENDER
         const folder = mkdtempSync(join(tmpdir(), "rowland-accuracy-"));
         try {
             const path = await lossless(join(probes, probe), folder);
-            const { results, errors, error, refusals } = await resultOf("test/points.html",
+            const { results, errors, error, refusals } = await resultOf("test/module.html?points_page.js",
                 { probe: "/probe/" + probe, keyLights: KEY_LIGHTS, renderers, cases: cases.map((one) => (one.grooves ? { ...one, texels: texelsOf(one) } : one)) },
                 { files: { ["/probe/" + probe]: path }, webgpu: true });
             assert.equal(error, undefined);

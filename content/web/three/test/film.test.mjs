@@ -85,7 +85,7 @@ const BETWEEN_RENDERERS = 1e-3;
 test("films equal rowland-trade evaluate", { skip: missing }, async (t) => {
     const folder = mkdtempSync(join(tmpdir(), "rowland-film-"));
     try {
-        const { results, error } = await resultOf("test/film.html", { cases: CASES }, { webgpu: true });
+        const { results, error } = await resultOf("test/module.html?film_driver.js", { cases: CASES }, { webgpu: true });
         assert.equal(error, undefined);
         for (const renderer of ["WebGPURenderer on WebGL 2", "WebGPURenderer on WebGPU"])
             await t.test(renderer, { skip: renderer in results ? false : "this Chromium offers no WebGPU adapter" }, () => {});

@@ -20,7 +20,7 @@ const TOLD = { "more vertices of instances than a table holds": /243100 vertices
 test("gratings in pages", { skip: chromium() ? missing : "needs Chromium" }, async (t) => {
     const only = process.env.ROWS?.split(",");
     const keep = process.env.PICTURES !== undefined;
-    const { rows, error, ...result } = await resultOf("test/pages.html", { only, keep }, { seconds: 500 });
+    const { rows, error, ...result } = await resultOf("test/module.html?pages.js", { only, keep }, { seconds: 500 });
     assert.equal(error, undefined, JSON.stringify(result));
     for (const { name, found, expected, ...row } of rows) {
         if (keep && found)

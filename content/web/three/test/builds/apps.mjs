@@ -1,6 +1,6 @@
 // The README's page as apps: the package as npm packs it, and what each bundler makes of the page.
 import { execFileSync } from "node:child_process";
-import { cpSync, mkdirSync, readFileSync, rmSync, symlinkSync, writeFileSync } from "node:fs";
+import { cpSync, mkdirSync, readdirSync, readFileSync, rmSync, symlinkSync, writeFileSync } from "node:fs";
 import { basename, join } from "node:path";
 import { packageFolder, resultOf } from "../browser.mjs";
 
@@ -30,7 +30,7 @@ export function linkThree(folder) {
 export const pageOf = (script) => `<!doctype html>\n<title>A disc</title>\n<script type="module" src="${script}"></script>\n`;
 
 /** Files that lie beside a bundle which names them, but has not moved them. */
-export const WORKER_FILES = ["worker.js", "bake.wasm", "keys.wasm", "arc.wasm", "reference.wasm", "solve.wasm", "film.wasm"];
+export const WORKER_FILES = ["worker.js", ...readdirSync(packageFolder + "dist").filter((name) => name.endsWith(".wasm"))];
 
 export function copyWorker(from, to) {
     for (const name of WORKER_FILES) cpSync(join(from, "dist", name), join(to, name));
