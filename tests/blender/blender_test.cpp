@@ -12,7 +12,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kExtension = "ROWLAND_materials_diffraction";
-constexpr int kNoSuchProgram = 127;  ///< of env
+constexpr int kNoSuchProgram = 127;  ///< of env and of the dynamic linker
 constexpr int kNoValidator = 77;     ///< of validate_gltf.cjs
 
 /// The extension's object of the material called `name`.
@@ -25,9 +25,10 @@ nlohmann::ordered_json object_of(const fs::path& file, const std::string& name) 
 }
 
 TEST(BlenderAddOn, GratingsSurviveExportAndImportAndAreWhatAttachMakes) {
-    if (test::run({"/usr/bin/env", "blender", "--version"}).code == kNoSuchProgram) {
-        if (test::data_is_required()) FAIL() << "Blender is missing";
-        GTEST_SKIP() << "Blender is missing";
+    const test::Ended version = test::run({"/usr/bin/env", "blender", "--version"});
+    if (version.code == kNoSuchProgram) {
+        if (test::data_is_required()) FAIL() << "Blender cannot be started: " << version.err;
+        GTEST_SKIP() << "Blender cannot be started: " << version.err;
     }
     const test::TemporaryFolder folder;
     const auto path = [&](const std::string& name) { return folder.path() / name; };
