@@ -1,5 +1,6 @@
 #include "editor/inspector/dialogs.h"
 
+#include <fmt/format.h>
 #include <imgui.h>
 
 #include <algorithm>
@@ -268,7 +269,8 @@ void Dialogs::draw_recent(ControlMap& controls) {
     ImGui::TextDisabled("Opened last");
     for (const std::string& path : layout_.recent) {
         const std::string name = std::filesystem::path(path).filename().string();
-        if (ImGui::Selectable((name + "##" + path).c_str(), false, ImGuiSelectableFlags_DontClosePopups)) choose(path);
+        if (ImGui::Selectable(fmt::format("{}##{}", name, path).c_str(), false, ImGuiSelectableFlags_DontClosePopups))
+            choose(path);
         controls.mark("recent " + name);
         if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", path.c_str());
     }

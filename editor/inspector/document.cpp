@@ -168,7 +168,7 @@ void Document::set_extension(const Json& object, const std::string& name) {
     edit(object, nullptr);
 }
 
-void Document::edit(Json edited, const Field* field) {
+void Document::edit(const Json& edited, const Field* field) {
     if (edited == json()) return;
     steps_.resize(at_);
     if (field != nullptr && field == editing_ && at_ > 0) {

@@ -186,7 +186,7 @@ class Document {
     };
 
     Document(std::string name, std::filesystem::path folder) : name_(std::move(name)), folder_(std::move(folder)) {}
-    void edit(Json edited, const Field* field);
+    void edit(const Json& edited, const Field* field);
     void set(std::size_t material, const Json& json);
     void reparse(Slot& slot) const;
     void require_accepted() const;

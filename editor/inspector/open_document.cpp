@@ -161,7 +161,7 @@ void OpenDocument::replace(OpenedScene opened) {
         PreviewObject{PreviewShape::Scene, upload(*opened.object), opened.object});
     replace(std::move(opened.document), std::move(object));
     const std::string file = document_.name();
-    for (const std::string& warning : scene()->imported.warnings) messages_.say(file + ": " + warning);
+    for (const std::string& warning : scene()->imported.warnings) messages_.say(fmt::format("{}: {}", file, warning));
     std::size_t surfaces = 0;
     for (std::size_t i = 0; i < document_.material_count(); ++i) surfaces += document_.accepted(i) ? 1 : 0;
     messages_.say(

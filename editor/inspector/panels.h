@@ -69,8 +69,8 @@ class ScenePanel {
 class PatternPane {
  public:
     /// Into the current ImGui window.
-    void draw(const View& view, std::shared_ptr<const PatternFigure> pattern, const post::DisplayTransform& display,
-              ControlMap& controls);
+    void draw(const View& view, const std::shared_ptr<const PatternFigure>& pattern,
+              const post::DisplayTransform& display, ControlMap& controls);
 
  private:
     void paint(const View& view, const post::DisplayTransform& display);

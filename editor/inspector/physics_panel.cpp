@@ -289,7 +289,7 @@ void PatternPane::paint(const View& view, const post::DisplayTransform& display)
     texture_.upload(std::span<const glm::vec3>(pixels));
 }
 
-void PatternPane::draw(const View& view, std::shared_ptr<const PatternFigure> pattern,
+void PatternPane::draw(const View& view, const std::shared_ptr<const PatternFigure>& pattern,
                        const post::DisplayTransform& display, ControlMap& controls) {
     if (!pattern) return ImGui::TextDisabled("Computing…");
     if (pattern->size == 0) return ImGui::TextDisabled("No listed order has light.");

@@ -225,7 +225,7 @@ void Preview::Side::add_surface(const CookedSurface& surface, const std::vector<
         for (const ecs::Entity part : parts) world.get<render::StandardMaterial>(part).double_sided = true;
 }
 
-void Preview::Side::set_glare(std::shared_ptr<const CookedSurface> surface) {
+void Preview::Side::set_glare(const std::shared_ptr<const CookedSurface>& surface) {
     if (std::exchange(sheet, surface) == surface) return;
     auto& glare = picture.post_settings().glare;
     glare.reset();

@@ -125,7 +125,7 @@ class Preview {
         void set_own_material(const Drawn& part);
         void show_surface(std::size_t material);
         void add_surface(const CookedSurface& surface, const std::vector<ecs::Entity>& parts);
-        void set_glare(std::shared_ptr<const CookedSurface> surface);
+        void set_glare(const std::shared_ptr<const CookedSurface>& surface);
 
         view::Picture picture;
         ecs::World world;

@@ -277,7 +277,7 @@ std::filesystem::path cook_once(const Registry& registry, const std::filesystem:
                             .dependencies = beside(source, baked.dependencies),
                             .content_hash = baked.asset.header.content_hash.hex(),
                             .output_hash = {}};
-    const std::filesystem::path output = output_of(record.content_hash);
+    std::filesystem::path output = output_of(record.content_hash);
     write_file_atomic(output, asset::pack(baked.asset));
     write_cook_record(record_file, record);
     read_files = std::move(baked.dependencies);

@@ -285,8 +285,8 @@ std::size_t EditableGltf::add_to_binary(std::vector<std::byte> image) {
 /// Returns the file's name.
 std::string EditableGltf::add_file(std::vector<std::byte> image, const std::string& name) {
     for (int number = 1;; ++number) {
-        const std::string file = fmt::format("{}{}{}", plain_name(name), number > 1 ? fmt::format("_{}", number) : "",
-                                             image::is_jpeg(image) ? ".jpg" : ".png");
+        std::string file = fmt::format("{}{}{}", plain_name(name), number > 1 ? fmt::format("_{}", number) : "",
+                                       image::is_jpeg(image) ? ".jpg" : ".png");
         std::error_code none;
         const bool is_taken = std::ranges::find(added_files_, file, &AddedFile::name) != added_files_.end() ||
                               fs::exists(path().parent_path() / file, none);

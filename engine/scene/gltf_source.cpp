@@ -220,7 +220,7 @@ std::filesystem::path relative_path_of_uri(const std::string& file, const std::s
     if (name.empty() || name.find('\0') != std::string::npos || name.find(':') != std::string::npos ||
         name.find('\\') != std::string::npos)
         refuse_input(file, pointer, fmt::format("URI \"{:.60}\"", uri), expected, kFileRemedy);
-    const std::filesystem::path path = std::filesystem::path(name).lexically_normal();
+    std::filesystem::path path = std::filesystem::path(name).lexically_normal();
     if (path.is_absolute() || *path.begin() == "..")
         refuse_input(file, pointer, fmt::format("URI \"{:.60}\", outside the glTF's folder", uri), expected,
                      kFileRemedy);

@@ -77,7 +77,7 @@ class Canvas {
                 texel.w /= scratched;
             }
             for (const float x : {std::min(texel.x, 1.0F), std::min(texel.y, 1.0F)})
-                image.rgba.push_back(static_cast<std::uint8_t>(255.0F * x + 0.5F));
+                image.rgba.push_back(static_cast<std::uint8_t>(std::lround(255.0F * x)));
             for (const float x : {texel.z, texel.w})
                 image.rgba.push_back(static_cast<std::uint8_t>(std::lround(128.0F + 127.0F * x)));
         }

@@ -46,7 +46,7 @@ std::string worst_comparison(const nlohmann::json& failures) {
         const double excess = std::abs(std::strtod(value.c_str(), nullptr) / std::strtod(limit.c_str(), nullptr));
         if (excess <= largest) continue;  // NaN is the worst of all
         largest = std::isnan(excess) ? std::numeric_limits<double>::infinity() : excess;
-        worst = value + ", allowed " + limit;
+        worst = fmt::format("{}, allowed {}", value, limit);
     }
     return worst;
 }
@@ -60,7 +60,8 @@ void add_difference(const nlohmann::json& test, TestResults& results) {
 
 void add(const std::string& suite, const nlohmann::json& test, TestResults& results) {
     if (test.contains("failures")) {
-        results.failed.push_back({suite + "." + test.at("name").get<std::string>(), worst_comparison(test.at("failures"))});
+        results.failed.push_back(
+            {suite + "." + test.at("name").get<std::string>(), worst_comparison(test.at("failures"))});
     } else if (test.at("result") == "SKIPPED") {
         ++results.skipped;
     } else if (test.at("result") == "COMPLETED") {

@@ -36,7 +36,7 @@ class DemoWindow : public test::FolderTest {
     }
     /// The file that replaces the sky's fragment shader.
     std::filesystem::path sky_shader() const {
-        const std::filesystem::path file = path("engine/render/shaders/sky.frag.glsl");
+        std::filesystem::path file = path("engine/render/shaders/sky.frag.glsl");
         std::filesystem::create_directories(file.parent_path());
         return file;
     }

@@ -24,7 +24,7 @@ struct BudgetChoice {
 
 /// Constraints of a choice besides the budget.
 struct ChoiceRules {
-    std::string pointer = "";  ///< JSON pointer of the material's object, for messages
+    std::string pointer;  ///< JSON pointer of the material's object, for messages
     /// Whether it is an error if no setting is within max_error. Otherwise the best one is taken, with a warning.
     bool must_meet_budget = true;
     /// The qualities that may be chosen; empty: all.

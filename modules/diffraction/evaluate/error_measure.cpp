@@ -196,7 +196,8 @@ class Draw {
         const auto found = std::upper_bound(brightness_.begin(), brightness_.end(), fraction() * brightness_.back());
         const auto texel = static_cast<int>(std::min(found, brightness_.end() - 1) - brightness_.begin());
         const int width = probe_.image().width;
-        return probe_.direction(texel % width + 0.5, texel / width + 0.5);
+        const int row = texel / width;
+        return probe_.direction(texel % width + 0.5, row + 0.5);
     }
 
     std::mt19937_64 random_;

@@ -50,12 +50,13 @@ PointShader key_light_shader(const CookedMaterial& cooked, const EvaluationLight
     DirectPart direct = direct_part(cooked, light);
     if (direct.keys.empty()) return [](const ShadingPoint&) { return glm::dvec3(0.0); };
     const Material& material = cooked.material;
-    if (material.grating.lattice)
-        return [pictures = key_light_pictures(material.grating, colour::LightSpectra(material.quality.illuminant),
-                                              direct.keys),
-                direct = std::move(direct)](const ShadingPoint& frame) {
+    if (material.grating.lattice) {
+        std::vector<LightPicture> pictures =
+            key_light_pictures(material.grating, colour::LightSpectra(material.quality.illuminant), direct.keys);
+        return [pictures = std::move(pictures), direct = std::move(direct)](const ShadingPoint& frame) {
             return pattern_radiance(pictures, direct.material.cover, direct.keys, frame);
         };
+    }
     return [&cooked, direct = std::move(direct)](const ShadingPoint& frame) {
         return direct_radiance(cooked.kernel, direct.material, direct.keys, frame);
     };

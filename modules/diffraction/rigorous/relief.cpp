@@ -101,11 +101,11 @@ Substrate substrate_of(const Grating& grating) {
 Relief relief_of(const Grating& grating, const std::string& name) {
     if (const auto refused = rigorous_refusal(grating))
         refuse_input(name, refused->key, refused->found, refused->expected, refused->remedy);
-    const Relief relief{.pitch_nm = grating.pitch_nm,
-                        .shape = *relief_shape(grating.profile),
-                        .films = grating.films,
-                        .ambient_ior = groove_medium(grating.cover),
-                        .mirrored = grating.transmission.has_value()};
+    Relief relief{.pitch_nm = grating.pitch_nm,
+                  .shape = *relief_shape(grating.profile),
+                  .films = grating.films,
+                  .ambient_ior = groove_medium(grating.cover),
+                  .mirrored = grating.transmission.has_value()};
     check_relief(relief, name);
     return relief;
 }

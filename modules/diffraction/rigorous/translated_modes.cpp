@@ -37,15 +37,15 @@ void add_nodes(Curve& curve, double begin, double end, int cells) {
                                            0.8611363115940526};
     constexpr std::array<double, 4> kWeights{0.3478548451374538, 0.6521451548625461, 0.6521451548625461,
                                              0.3478548451374538};
-    const auto first = curve.u.size();
-    curve.u.conservativeResize(first + 4 * cells);
-    curve.weight.conservativeResize(first + 4 * cells);
+    auto node = curve.u.size();
+    curve.u.conservativeResize(node + 4L * cells);
+    curve.weight.conservativeResize(node + 4L * cells);
     const double half = (end - begin) / (2 * cells);
-    for (int i = 0; i < 4 * cells; ++i) {
-        const auto k = static_cast<std::size_t>(i % 4);
-        curve.u[first + i] = begin + half * (2 * (i / 4) + 1 + kNodes[k]);
-        curve.weight[first + i] = half * kWeights[k];
-    }
+    for (int cell = 0; cell < cells; ++cell)
+        for (std::size_t k = 0; k < kNodes.size(); ++k, ++node) {
+            curve.u[node] = begin + half * (2 * cell + 1 + kNodes[k]);
+            curve.weight[node] = half * kWeights[k];
+        }
 }
 
 Curve curve_of(const SinusoidalProfile& shape, double pitch_nm, int cells) {

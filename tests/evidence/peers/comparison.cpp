@@ -116,9 +116,10 @@ lighting::ProbeImage resampled(const lighting::ProbeImage& probe) {
     for (int row = 0; row < kRows; ++row)
         for (int column = 0; column < 2 * kRows; ++column) {
             glm::dvec3 sum(0.0);
-            for (int i = 0; i < kSamples * kSamples; ++i)
-                sum += probe.radiance(glm::normalize(
-                    grid.direction(column + (i % kSamples + 0.5) / kSamples, row + (i / kSamples + 0.5) / kSamples)));
+            for (int j = 0; j < kSamples; ++j)
+                for (int i = 0; i < kSamples; ++i)
+                    sum += probe.radiance(
+                        glm::normalize(grid.direction(column + (i + 0.5) / kSamples, row + (j + 0.5) / kSamples)));
             result.at(column, row) = glm::vec3(sum / static_cast<double>(kSamples * kSamples));
         }
     return lighting::ProbeImage(result, lighting::Mapping::Equirectangular);

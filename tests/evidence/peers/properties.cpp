@@ -77,7 +77,7 @@ std::optional<std::size_t> first_peak(const std::vector<double>& green, std::siz
     }
     // A value that still rises at the horizon is no peak, nor is the mirror's direction.
     if (std::abs(best - static_cast<std::ptrdiff_t>(start)) < kNearMirror) return std::nullopt;
-    if (at(best) <= floor || !inside(last + step) || !inside(last + 2 * step)) return std::nullopt;
+    if (at(best) <= floor || !inside(last + step) || !inside(last + step + step)) return std::nullopt;
     return static_cast<std::size_t>((best + last) / 2);
 }
 

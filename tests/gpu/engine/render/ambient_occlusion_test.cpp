@@ -30,8 +30,9 @@ class AmbientOcclusionTest : public test::TracedSceneTest {
         const auto [x, y] = axes_across(point.normal);
         double sum = 0.0;
         for (int i = 0; i < kSide * kSide; ++i) {
+            const int turn = i / kSide;
             const double radius2 = (i % kSide + 0.5) / kSide;
-            const double angle = 2.0 * std::numbers::pi * (i / kSide + 0.5) / kSide;
+            const double angle = 2.0 * std::numbers::pi * (turn + 0.5) / kSide;
             const glm::dvec3 direction = std::sqrt(radius2) * (std::cos(angle) * x + std::sin(angle) * y) +
                                          std::sqrt(1.0 - radius2) * point.normal;
             const auto hit = trace(point.point + 1e-5 * point.normal, direction);

@@ -14,8 +14,10 @@ class DomeTest : public test::RenderTest {
     static lighting::LightProbe numbered_faces() {
         lighting::LightProbe probe = even_light(1.0F);
         auto& halves = probe.environment.halves;
-        for (std::size_t i = 0; i < halves.size(); ++i)
-            halves[i] = glm::packHalf1x16(1.0F + static_cast<float>(i / (halves.size() / 6)));
+        for (std::size_t i = 0; i < halves.size(); ++i) {
+            const std::size_t face = i / (halves.size() / 6);
+            halves[i] = glm::packHalf1x16(1.0F + static_cast<float>(face));
+        }
         return probe;
     }
     static glm::dvec3 from_capture(const glm::dvec3& eye, const glm::dvec3& seen) {
@@ -26,7 +28,8 @@ class DomeTest : public test::RenderTest {
         return at - capture;
     }
     glm::dvec3 seen_by(std::size_t pixel) const {
-        const glm::dvec2 at(static_cast<double>(pixel % kSize), static_cast<double>(pixel / kSize));
+        const std::size_t row = pixel / kSize;
+        const glm::dvec2 at(static_cast<double>(pixel % kSize), static_cast<double>(row));
         const glm::dvec2 offset = (2.0 * (at + 0.5) / double{kSize} - 1.0) * double{kHalfView / kEye};
         const glm::dvec3 forward = glm::normalize(glm::dvec3(camera_.target - camera_.eye));
         const glm::dvec3 right = glm::normalize(glm::cross(forward, glm::dvec3(0.0, 1.0, 0.0)));

@@ -81,7 +81,7 @@ TEST_F(LocalReflectionTest, ThePlanesMapMayHaveLevelsAndAnAnisotropicFilter) {
     auto map = std::make_shared<gpu::Texture>(
         gpu::TextureDesc{.format = gpu::Format::RGBA32F, .width = 64, .height = 64, .levels = 0},
         gpu::Sampling{.filter = gpu::Filter::Trilinear, .anisotropy = gpu::max_anisotropy()});
-    map->upload(std::span<const glm::vec4>(std::vector<glm::vec4>(64 * 64, glm::vec4(0.25F))));
+    map->upload(std::span<const glm::vec4>(std::vector<glm::vec4>(std::size_t{64} * 64, glm::vec4(0.25F))));
     map->generate_levels();
     world_.get<StandardMaterial>(floor_).base_colour_texture.texture = map;
     reflect(true);

@@ -197,8 +197,9 @@ class SoftShadowTest : public test::TracedSceneTest {
         const auto [x, y] = axes_across(toward);
         double sum = 0.0;
         for (int i = 0; i < kSide * kSide; ++i) {
+            const int turn = i / kSide;
             const double radius = std::tan(angular_radius) * std::sqrt((i % kSide + 0.5) / kSide);
-            const double angle = 2.0 * std::numbers::pi * (i / kSide + 0.5) / kSide;
+            const double angle = 2.0 * std::numbers::pi * (turn + 0.5) / kSide;
             const glm::dvec3 direction = toward + radius * (std::cos(angle) * x + std::sin(angle) * y);
             sum += trace(point.point + 1e-6 * point.normal, glm::normalize(direction)) ? 0.0 : 1.0;
         }

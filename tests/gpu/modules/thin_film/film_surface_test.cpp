@@ -107,7 +107,7 @@ TEST_F(FilmPixel, OfARoughFilmIsTheTablesMeanOverItsLobe) {
     camera_.eye = {1.5F, 0.4F, 1.2F};
     const double cosine = view().z;
     const auto column = static_cast<std::size_t>(cosine * 64.0);
-    const glm::vec2 split = albedo[32 * 64 + column];
+    const glm::vec2 split = albedo[std::size_t{32} * 64 + column];
     // A cell of the engine's table of albedos, of which the nearest is taken, is 1 % wide here.
     expect_near(centre(), by_table(cosine, roughness, kLight) * static_cast<double>(split.x + split.y), 1e-2);
 }

@@ -49,7 +49,7 @@ class GltfFilm : public rowland::test::RenderTest {
         const render::SceneInstance instance =
             render::instantiate(world_, scene_with(extensions, alpha_mode), renderer_, "scene.gltf");
         for (const ecs::Entity entity : instance.drawn) world_.add(entity, scene::WorldMatrix{glm::mat4(1.0F)});
-        const std::vector<glm::vec4> pixels = draw();
+        std::vector<glm::vec4> pixels = draw();
         render::destroy(world_, instance);
         return pixels;
     }

@@ -15,7 +15,7 @@ ProbeRecipe parse(const std::string& text) {
 }
 
 std::string refusal(const std::string& text) {
-    const std::string message = test::message_of([&] { parse(text); });
+    std::string message = test::message_of([&] { parse(text); });
     EXPECT_THAT(message, testing::StartsWith("p.json")) << text;
     return message;
 }

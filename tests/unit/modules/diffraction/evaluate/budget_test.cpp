@@ -164,8 +164,9 @@ TEST(Budget, OutOfReachIsRefusedWithTheBestThatIsNot) {
     const std::vector<BudgetProbe> probes = {made_up()};
     const std::vector<ShadingPoint> frames = some_frames(SurfaceShape::Flat, 24);
     // Arcs alone, as a search through all representations takes long.
-    const ChoiceRules rules{
-        .allows = [](const Quality& quality) { return std::holds_alternative<ArcSettings>(*quality.pinned); }};
+    const ChoiceRules rules{.pointer = {}, .allows = [](const Quality& quality) {
+                                return std::holds_alternative<ArcSettings>(*quality.pinned);
+                            }};
     const auto choose = [&](double max_error) {
         return choose_representation(with_budget(max_error), probes, one_part(probes.size(), frames), "folder/cd.json",
                                      rules);
@@ -193,7 +194,8 @@ TEST(Budget, RecordsTheLargestErrorOfAllParts) {
         if (swapped) std::swap(views.parts[0], views.parts[1]);
         const BudgetChoice choice = choose_representation(
             material, probes, {&views, 1}, "cd.json",
-            {.allows = [](const Quality& quality) { return std::holds_alternative<PlanarSettings>(*quality.pinned); }});
+            {.pointer = {},
+             .allows = [](const Quality& quality) { return std::holds_alternative<PlanarSettings>(*quality.pinned); }});
         recorded.push_back(choice.cooked.measured->probes[0].error);
         EXPECT_EQ(choice.cooked.measured->frames, 12);
         const auto of_part = [&](std::size_t begin) {

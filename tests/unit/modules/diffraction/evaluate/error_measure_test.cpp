@@ -58,7 +58,7 @@ TEST(ErrorMeasure, FlipIsTheMeanOfTheMapWhereThePictureSeesTheSurface) {
         const std::vector<glm::dvec3> reference = shades(layout.pixels.size());
         std::vector<glm::dvec3> shown = reference;
         for (std::size_t i = 0; i < shown.size(); i += 3) shown[i] = glm::dvec3(0.4, 0.8, 0.3);
-        std::vector<glm::dvec3> shown_pixels(16 * 16, glm::dvec3(0.0));
+        std::vector<glm::dvec3> shown_pixels(std::size_t{16} * 16, glm::dvec3(0.0));
         std::vector<glm::dvec3> reference_pixels = shown_pixels;
         for (std::size_t i = 0; i < shown.size(); ++i) {
             shown_pixels[layout.pixels[i]] = shown[i];

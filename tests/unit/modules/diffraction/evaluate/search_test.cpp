@@ -42,7 +42,7 @@ SearchState searched(const SearchQuery& query, int stop_after = 1000) {
     std::stop_source stop;
     int reports = 0;
     std::size_t done = 0;
-    const SearchState found = search(
+    SearchState found = search(
         query,
         [&](const SearchState& state) {
             EXPECT_GT(state.done, done);

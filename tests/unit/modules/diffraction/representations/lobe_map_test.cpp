@@ -284,7 +284,8 @@ Deviation deviation_around_a_lamp(const Material& material, const lighting::Prob
         for (int side = 0; side < 5; ++side) {
             std::vector<ShadingPoint> line;
             for (int i = 0; i < points; ++i) {
-                const double along = 0.5 * (i - points / 2);
+                const int offset = i - points / 2;
+                const double along = 0.5 * offset;
                 const glm::dvec2 nodes = axis == 0 ? glm::dvec2(along, side - 2) : glm::dvec2(side - 2, along);
                 glm::dvec2 v = glm::dvec2(order->u) - glm::dvec2(lamp);
                 v = glm::dvec2(v.x, mirrored * v.y) + nodes * glm::dvec2(views.step_g(), views.step_h());

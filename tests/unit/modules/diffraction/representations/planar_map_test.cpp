@@ -254,7 +254,8 @@ TEST(FlatMapAroundALamp, IsNeverNegativeAndHasNoStripes) {
             std::vector<ShadingPoint> line;
             std::vector<glm::dvec3> shown;
             for (int i = 0; i < kPoints; ++i) {
-                const double nodes = 0.5 * (i - kPoints / 2);
+                const int offset = i - kPoints / 2;
+                const double nodes = 0.5 * offset;
                 const double turn = azimuth + (along_azimuth ? nodes * 2.0 * std::numbers::pi / size.azimuths : 0.0);
                 const double v_g =
                     550.0 / material.grating.pitch_nm - s_g + (along_azimuth ? 0.0 : nodes * 2.0 / (size.views - 1));
