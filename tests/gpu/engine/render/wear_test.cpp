@@ -1,5 +1,7 @@
 // What marks of use do to a surface, against their formulas.
 
+#include <utility>
+
 #include "engine/render/surface_textures.h"
 #include "tests/gpu/render_test.h"
 
@@ -106,20 +108,22 @@ TEST_F(WearTest, AScratchDiffractsLightAcrossItself) {
         const glm::vec2 twice(std::cos(2.0 * angle), std::sin(2.0 * angle));
         const glm::dvec3 across(std::sin(angle), std::cos(angle), 0.0);
         double brightest = 0.0;
-        for (const double away : {-0.35, -0.1, 0.05, 0.2}) {
-            const glm::dvec3 l = glm::normalize(glm::dvec3(0.0, 0.0, 1.0) + away * across);
+        const glm::dvec3 along(std::cos(angle), -std::sin(angle), 0.0);
+        for (const auto& [away, aside] :
+             {std::pair(-0.35, 0.0), std::pair(-0.1, 0.02), std::pair(0.05, -0.03), std::pair(0.2, 0.0)}) {
+            const glm::dvec3 l = glm::normalize(glm::dvec3(0.0, 0.0, 1.0) + away * across + aside * along);
             set_sun(glm::vec3(l), false);
             world_.get<scene::DirectionalLight>(sun_).angular_radius = 0.0F;
             const glm::vec4 pixel = middle(mirror_, wear(0.0F, 0.0F, twice));
             for (int c = 0; c < 3; ++c) {
                 EXPECT_NEAR(pixel[c], expected(l, angle, c), 2e-3 * expected(l, angle, c) + 1e-3)
-                    << angle << ", " << away;
+                    << angle << ", " << away << ", " << aside;
                 brightest = std::max(brightest, expected(l, angle, c));
             }
         }
         EXPECT_GT(brightest, 5.0);
         // Nothing of it goes along the scratch.
-        const glm::dvec3 beside = glm::normalize(glm::dvec3(std::cos(angle), -std::sin(angle), 4.0));
+        const glm::dvec3 beside = glm::normalize(along + glm::dvec3(0.0, 0.0, 4.0));
         set_sun(glm::vec3(beside), false);
         EXPECT_LT(middle(mirror_, wear(0.0F, 0.0F, twice)).g, 1e-3F);
     }
