@@ -1,4 +1,5 @@
 // Objects within a frame budget: which rungs draw them, how these follow each other, and what is measured.
+#include <array>
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "engine/scene/mesh_recipe.h"
@@ -34,8 +35,9 @@ CookedMaterial ladder_material() {
 /// Two discs side by side that face the camera.
 class FrameBudgets : public test::GlTest {
  protected:
-    FrameBudgets() {
-        register_module(renderer_, {.map_pace = MapPace::Incremental, .map_wait = std::chrono::hours(1)});
+    /// `map_wait`: for how long a first frame waits for coarse maps.
+    explicit FrameBudgets(std::chrono::milliseconds map_wait = std::chrono::hours(1)) {
+        register_module(renderer_, {.map_pace = MapPace::Incremental, .map_wait = map_wait});
         renderer_.set_probe(lighting::build_light_probe(
             smooth_probe(), {.bands = 8, .key_lights = 4, .light_face = 32, .prefilter = {.face_size = 32}}));
         renderer_.use_key_lights(true);
@@ -144,22 +146,34 @@ TEST_F(FrameBudgets, RungsFadeIntoEachOther) {
     EXPECT_EQ(renderer_.report().programs, programs) << "all rungs' programs were linked with the first";
 }
 
-TEST_F(FrameBudgets, AFadeWaitsForTheMapOfItsRung) {
+class FrameBudgetsWithoutWaits : public FrameBudgets {
+ protected:
+    FrameBudgetsWithoutWaits() : FrameBudgets(std::chrono::milliseconds(0)) {}
+};
+
+TEST_F(FrameBudgetsWithoutWaits, AFadeWaitsForTheMapOfItsRung) {
     set_budget(1e-9);
     const std::vector<glm::vec4> cheapest = settle();
     set_budget(1e9);
+    std::array<bool, 2> lacked_map{};  // in the frame before
+    int frames_without = 0;
     for (int frame = 0; frame < 300 && rung(0) == 0; ++frame) {
         const std::vector<glm::vec4> picture = draw();
         bool fades = false;
-        for (const ecs::Entity disc : discs_) {
-            if (world_.get<DrawnRung>(disc).fade_frame == 0) continue;
-            fades = true;
-            EXPECT_FALSE(world_.get<SurfaceState>(disc).second->without_map);
+        for (std::size_t i = 0; i < discs_.size(); ++i) {
+            const SurfaceState* next = world_.get<SurfaceState>(discs_[i]).second.get();
+            if (world_.get<DrawnRung>(discs_[i]).fade_frame > 0) {
+                fades = true;
+                EXPECT_FALSE(lacked_map[i]) << frame;
+            }
+            lacked_map[i] = next != nullptr && next->without_map;
+            if (lacked_map[i]) ++frames_without;
         }
         if (!fades && rung(0) == 0 && rung(1) == 0) {
             EXPECT_LT(difference(picture, cheapest), 1e-6F);
         }
     }
+    EXPECT_GT(frames_without, 0);
     settle();
     EXPECT_EQ(rung(0), 2U);
     EXPECT_EQ(rung(1), 2U);
