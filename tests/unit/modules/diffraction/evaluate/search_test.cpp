@@ -160,6 +160,21 @@ TEST(Search, MeasuresTheFrontWholly) {
             partly += found.measured[i].errors.size() < probes.size() ? 1 : 0;
     }
     EXPECT_GT(partly, 0U) << "the settings of this test have one off the front";
+
+    // As well for an error of which the best is good enough, if the cheaper ones are asked for.
+    SearchQuery ladder = query;
+    ladder.good_enough = std::ranges::min(alone, {}, &MeasuredChoice::error).error();
+    ladder.cheaper = true;
+    const SearchState rungs = searched(ladder);
+    std::size_t cheaper = 0;
+    for (const MeasuredChoice& rung : rungs.measured) {
+        if (!on_front(rung, rungs.measured)) continue;
+        const auto same = std::ranges::find(alone, rung.settings, &MeasuredChoice::settings);
+        ASSERT_NE(same, alone.end());
+        EXPECT_EQ(rung.errors, same->errors) << rung.settings;
+        cheaper += rung.error() > *ladder.good_enough ? 1 : 0;
+    }
+    EXPECT_GT(cheaper, 0U);
 }
 
 TEST(Search, StopsBetweenTwoSteps) {
