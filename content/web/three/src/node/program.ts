@@ -49,6 +49,11 @@ export class Program {
         return Number(this.text(option));
     }
 
+    /** Whether the value has come, for those that come with a mesh. Graphs are built again when it does. */
+    knows(name: string): boolean {
+        return name in this.state.values;
+    }
+
     /** What distinguishes graphs. */
     get key(): string {
         return this.has("ROWLAND") ? [...this.state.options].map((option) => option.join("=")).sort().join() : "";
