@@ -11,6 +11,7 @@ const nodeRows = { ...nodeMeshes, ...Object.fromEntries(NODE_PICTURES.map((name)
 
 try {
     const { only, keep } = task;
+    if (task.renderer.endsWith("on WebGPU") && !renderer.backend.isWebGPUBackend) throw new Error("this Chromium offers no WebGPU adapter");
     await rowland.setProbe(sky(), { keyLights: 2 });
     const rows = [];
     for (const [name, run] of Object.entries(task.renderer === "WebGLRenderer" ? { ...meshes, ...pictures } : nodeRows)) {
