@@ -22,7 +22,9 @@ Numbers* film_table(const char* json, std::size_t size, double thinnest_nm, doub
     if (thinnest_nm >= 0.0) material.range.thinnest_nm = thinnest_nm;
     if (smoothest >= 0.0) material.range.smoothest = smoothest;
     if (red >= 0.0) material.film.base = NormalReflectance{.rgb = {red, green, blue}};
-    const FilmTable table = bake_film(material);
+    // The page's halves are finer than the nine bits of a cooked table.
+    const FilmColour colour(material.film, colour::LightSpectra(material.illuminant));
+    const FilmTable table = bake_table(colour, material.range, table_size(material.range), true);
     const FilmAxes axes = film_axes(table);
     auto* numbers = new Numbers;
     append(axes.path, *numbers);

@@ -160,7 +160,6 @@ void fill(const Averages& averages, FilmTable& table) {
     fit_nodes(table.values, 1, columns);
     fit_nodes(table.values, columns, rows);
     fit_nodes(table.values, columns * rows, static_cast<std::size_t>(table.layers));
-    for (glm::mat3& value : table.values) value = to_stored(value);
 }
 
 /// The roughnesses at which the error is measured: 0, which light from one direction takes, and those of the range at
@@ -298,7 +297,7 @@ FilmTable empty_table(const Film& film, const TableRange& range, const TableSize
             .only_thickness_nm = range.thinnest_nm};
 }
 
-FilmTable bake_table(const FilmColour& colour, const TableRange& range, const TableSize& size) {
+FilmTable bake_table(const FilmColour& colour, const TableRange& range, const TableSize& size, bool exact) {
     FilmTable table = empty_table(colour.film(), range, size);
     const bool rough = range.roughest > 0.0;
     // The nodes of a row have one path difference: at other angles they have thicknesses beyond the range.
@@ -307,6 +306,8 @@ FilmTable bake_table(const FilmColour& colour, const TableRange& range, const Ta
     const double reach = table.rows > 1 ? std::min(spread, 2.0) : 1.0;
     const Averages averages(colour, range.thinnest_nm / reach, range.thickest_nm * reach, rough);
     fill(averages, table);
+    if (!exact)
+        for (glm::mat3& value : table.values) value = to_stored(value);
     table.error = measure(averages, table, range);
     return table;
 }

@@ -96,7 +96,7 @@ TableSize table_size(const TableRange& range);
 /// A table without values.
 FilmTable empty_table(const Film& film, const TableRange& range, const TableSize& size);
 
-/// Bakes a table and measures its error.
-FilmTable bake_table(const FilmColour& colour, const TableRange& range, const TableSize& size);
+/// Bakes a table and measures its error. Unless it is `exact`, its nodes are rounded as to_stored() does.
+FilmTable bake_table(const FilmColour& colour, const TableRange& range, const TableSize& size, bool exact = false);
 
 }  // namespace rowland::thin_film

@@ -133,6 +133,9 @@ export function poseOf(mesh: AbstractMesh, _: AbstractMesh, { numbers }: Matrix3
     return Float32Array.from([...numbers, ...linear(mesh.getWorldMatrix())]);
 }
 
+/** Numbers that change whenever poseOf() or planeNormal() does under the same probe. */
+export const poseKey = (mesh: AbstractMesh, _: AbstractMesh): number[] => linear(mesh.getWorldMatrix());
+
 const flat = new WeakMap<AbstractMesh, Vector | null>();
 /** The normal that all vertices have, to 1e-3; null for curved meshes. Looked for once for a mesh. */
 function flatNormal(mesh: AbstractMesh): Vector | null {

@@ -2,6 +2,6 @@
 export {
     Matrix3, Texture, Vector2, Vector3, Vector4, type BatchedMesh, type BufferGeometry, type InstancedMesh, type Object3D, type Scene,
 } from "three";
-export { frames, groovesOf, partsOf, planeNormal, poseOf, probeFromWorld, type Grooves } from "./frames.js";
+export { frames, groovesOf, partsOf, planeNormal, poseKey, poseOf, probeFromWorld, type Grooves } from "./frames.js";
 export { grooveMap, rotationsOf, type GrooveMap } from "./groove_map.js";
 export { arrayTexture, MOST_STORED, planeTexture, storageTexture, takeContent, volumeTexture } from "./textures.js";

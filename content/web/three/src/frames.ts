@@ -72,6 +72,18 @@ export function poseOf(object: Object3D, geometry: BufferGeometry, toProbe: Matr
     return Float32Array.from(numbers);
 }
 
+/** Numbers that change whenever poseOf() or planeNormal() does under the same probe; null for a BatchedMesh, which tells of no change. */
+export function poseKey(object: Object3D, geometry: BufferGeometry): number[] | null {
+    const mesh = kindOf(object);
+    if (mesh.isBatchedMesh) return null;
+    const key = [...linear(object.matrixWorld), geometry.getAttribute("position").count];
+    for (const of of [geometry.getAttribute("normal") as BufferAttribute | undefined, mesh.instanceMatrix]) key.push(of?.id ?? -1, of?.version ?? -1);
+    if (mesh.isInstancedMesh) key.push(mesh.count!, mesh.morphTexture ? 1 : 0);
+    if (mesh.isSkinnedMesh) for (const { matrixWorld } of mesh.skeleton!.bones) key.push(...linear(matrixWorld));
+    if (bends(object, geometry)) key.push(...(mesh.morphTargetInfluences ?? []));
+    return key;
+}
+
 /** Whether vertices move beside each other. */
 export function bends(object: Object3D, geometry: BufferGeometry): boolean {
     const { position, normal } = geometry.morphAttributes;

@@ -1,7 +1,6 @@
 import {
     arrayTexture, frames, grooveMap, groovesOf, Matrix3, MOST_STORED, probeFromWorld, rotationsOf, storageTexture, takeContent, Texture,
-    Vector2, Vector3, Vector4, volumeTexture, type BufferGeometry, type GrooveMap, type Grooves, type InstancedMesh, type Object3D,
-    type Scene,
+    Vector2, Vector3, Vector4, volumeTexture, type BufferGeometry, type GrooveMap, type Grooves, type Object3D, type Scene,
 } from "./engine.js";
 import type { Efficiencies, Rowland } from "./rowland.js";
 import { planeValues, productValues, Surface, type Representation } from "./surface.js";
@@ -96,6 +95,7 @@ export class GratingState {
     /** Takes the settings, and bakes the grating if there is one. */
     configure({ rowland, grating, efficiencies, ...others }: GratingSettings): void {
         Object.assign(this, others, grating && { grating });
+        this.knownKind = undefined;
         if (rowland && grating) this.bake(rowland, grating, efficiencies);
     }
 
@@ -271,15 +271,21 @@ export class GratingState {
         return this.tables!.facts[FACT.lobe] === 0;
     }
 
+    private knownKind?: Representation; // while no surface changes in what it depends on
+
     /** How all meshes of the material are shaded, as they have one program: flat ones by a table where one is curved. */
     private get kind(): Representation {
+        return (this.knownKind ??= this.findKind());
+    }
+
+    private findKind(): Representation {
         if (this.representation === "direct") return "direct";
         const surfaces = [...this.surfaces.values()];
-        const large = surfaces.find(({ object, vertices }) => vertices > MOST_VERTICES || (object as Partial<InstancedMesh>).morphTexture);
+        const large = surfaces.find(({ ownMorphs, vertices }) => vertices > MOST_VERTICES || ownMorphs);
         // A flat mesh has a map even under a groove texture: a table's products are per vertex and would miss the texture.
         if (this.representation !== "arc" && surfaces.every(({ normal }) => normal)) return "planar";
         if (!large) return "arc";
-        this.tell(`GratingMaterial on "${large.object.name || large.object.type}": ` + ((large.object as Partial<InstancedMesh>).morphTexture
+        this.tell(`GratingMaterial on "${large.object.name || large.object.type}": ` + (large.ownMorphs
             ? "instances with morphs of their own have no table of light"
             : `${large.vertices} vertices of instances, of which a table holds ${MOST_VERTICES}`) +
             '; it shows bright lights alone. Use fewer vertices or several meshes, or the representation "direct"');
@@ -390,7 +396,10 @@ export class GratingState {
 
     private surfaceOf(object: Object3D, geometry: BufferGeometry): Surface {
         let surface = this.surfaces.get(object);
-        if (surface?.geometry !== geometry) surface = new Surface(object, geometry);
+        if (surface?.geometry !== geometry) {
+            surface = new Surface(object, geometry);
+            this.knownKind = undefined;
+        }
         this.surfaces.delete(object);
         this.surfaces.set(object, surface);
         if (this.surfaces.size > SURFACES) this.surfaces.delete(this.surfaces.keys().next().value!);
@@ -401,7 +410,7 @@ export class GratingState {
     see(scene: Scene, geometry: BufferGeometry, object: Object3D): void {
         if (this.disposed && this.rowland) this.bake(this.rowland, this.grating!, this.efficiencies);
         const surface = this.surfaceOf(object, geometry);
-        surface.see(probeFromWorld(scene));
+        if (surface.see(probeFromWorld(scene))) this.knownKind = undefined;
         if (!this.tables) return;
         if (!surface.isSettled(this.rowland!.lightVersion, this.kind)) this.follow();
         for (const [name, value] of Object.entries(surface.values)) this.put(name, value);

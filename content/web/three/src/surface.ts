@@ -1,6 +1,6 @@
 import {
-    Matrix3, partsOf, planeNormal, planeTexture, poseOf, storageTexture, takeContent, Texture, Vector2, Vector3, Vector4, volumeTexture,
-    type BatchedMesh, type BufferGeometry, type Object3D,
+    Matrix3, partsOf, planeNormal, planeTexture, poseKey, poseOf, storageTexture, takeContent, Texture, Vector2, Vector3, Vector4,
+    volumeTexture, type BatchedMesh, type BufferGeometry, type InstancedMesh, type Object3D,
 } from "./engine.js";
 import type { PlaneMap } from "./tasks.js";
 
@@ -22,21 +22,31 @@ export class Surface {
     normal: Vector3 | null = null;
     /** Of all instances together. */
     vertices = 0;
+    /** Whether its instances have morphs of their own. */
+    ownMorphs = false;
     /** Whether it has been drawn since its light was asked for. */
     drawn = true;
     readonly toProbe = new Matrix3();
     private asked?: { light: number; kind: Representation; normal: Vector3 | null };
     private complete = false; // its map is the full one
     private pose: Float32Array = new Float32Array();
+    private key: readonly number[] | null = null; // of the pose that it was last drawn in
+    private stands?: boolean; // whether that is `pose`
 
     constructor(readonly object: Object3D, readonly geometry: BufferGeometry) {}
 
-    /** It is about to be drawn. `toProbe`: from the world. */
-    see(toProbe: Matrix3): void {
+    /** It is about to be drawn. `toProbe`: from the world. True if its representation may be another one. */
+    see(toProbe: Matrix3): boolean {
         this.drawn = true;
+        const { object, geometry, key, normal, vertices, ownMorphs } = this;
+        this.key = poseKey(object, geometry);
+        if (this.key?.length === key?.length && this.key?.every((x, i) => x === key![i]) && toProbe.equals(this.toProbe)) return false;
+        this.stands = undefined;
         this.toProbe.copy(toProbe);
-        this.normal = planeNormal(this.object, this.geometry, this.toProbe, STEADY);
-        this.vertices = partsOf(this.object, this.geometry).reduce((sum, { count }) => sum + count, 0);
+        this.normal = planeNormal(object, geometry, this.toProbe, STEADY);
+        this.vertices = partsOf(object, geometry).reduce((sum, { count }) => sum + count, 0);
+        this.ownMorphs = Boolean((object as Partial<InstancedMesh>).morphTexture);
+        return !this.normal !== !normal || this.vertices !== vertices || this.ownMorphs !== ownMorphs;
     }
 
     /** Its light is asked for, as it stands. */
@@ -45,6 +55,7 @@ export class Surface {
         this.asked = { light, kind, normal: kind === "planar" ? this.normal : null };
         this.complete = false;
         this.pose = poseOf(this.object, this.geometry, this.toProbe);
+        this.stands = undefined;
     }
 
     forget(): void {
@@ -56,8 +67,8 @@ export class Surface {
         if (!asked || asked.light !== light || asked.kind !== kind) return false;
         if (kind === "direct") return true;
         if (asked.normal) return this.normal !== null && this.normal.distanceTo(asked.normal) < STEADY;
-        const now = poseOf(this.object, this.geometry, this.toProbe);
-        return now.length === pose.length && pose.every((x, i) => Math.abs(x - now[i]) < STEADY);
+        const isNear = (now: Float32Array) => now.length === pose.length && pose.every((x, i) => Math.abs(x - now[i]) < STEADY);
+        return (this.stands ??= isNear(poseOf(this.object, this.geometry, this.toProbe)));
     }
 
     /** Its values, which are a map or a table, are there. */

@@ -27,18 +27,16 @@ const views = (count, texels) => Array.from({ length: count }, (_, i) => {
     const cosine = 0.1 + (0.9 * (i + 0.5)) / count;
     return { view: [Math.sqrt(1 - cosine * cosine), 0, cosine], texel: texels?.[i % texels.length] };
 });
-// Halves hold the table to 5e-4. The table itself, whose nodes have nine bits, is up to 6.4e-3 off the reference.
-const SMOOTH = { table: 2e-3, reference: 8e-3 };
-// Each thickness has its own table where it is evaluated.
-const VARYING = { reference: 8e-3 };
-// three's split sum differs from the engine's: 5.1e-3.
-const ROUGH = { drawn: 8e-3 };
-// three's mirror has the light that microfacets reflect twice as well: 9.4e-4 measured.
-const LAMP = { table: 2e-3 };
+// The ground truth, of each thickness. Nodes with nine bits, as those of a cooked table, would be 6.4e-3 off.
+const SMOOTH = { reference: 2e-3 };
+// Beside the engine's split sum, with the nine bits of its table: three's differs by 5.1e-3, and both by 9.1e-3.
+const ROUGH = { drawn: 1.2e-2 };
+// three's mirror has the light that microfacets reflect twice as well: 9.9e-4 measured.
+const LAMP = { reference: 2e-3 };
 const CASES = [
     { name: "soap film", film: SOAP, views: views(100), tolerances: SMOOTH },
     { name: "two layers on glass", film: COATED, views: views(100), tolerances: SMOOTH },
-    { name: "oil of varying thickness", film: OIL, views: views(100, TEXELS), thicknesses: [THINNEST_NM, 800], tolerances: VARYING },
+    { name: "oil of varying thickness", film: OIL, views: views(100, TEXELS), thicknesses: [THINNEST_NM, 800], tolerances: SMOOTH },
     { name: "soap film, a lamp", film: SOAP, views: views(25), lamp: true, tolerances: LAMP },
     { name: "anodised aluminium, rough", film: ANODISED, views: views(100), tolerances: ROUGH },
 ];

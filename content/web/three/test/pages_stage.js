@@ -1,6 +1,12 @@
 // A small scene of gratings, its pictures as floats, and how far two pictures are apart.
 import * as THREE from "three";
+import { WebGPURenderer } from "three/webgpu";
 import { GratingMaterial, Rowland } from "../dist/index.js";
+import { GratingNodeMaterial } from "../dist/webgpu.js";
+
+/** Which rows, by which of three's renderers. */
+export const task = await (await fetch("/task")).json();
+const nodes = task.renderer !== "WebGLRenderer";
 
 export const SIZE = 32; // of a picture, in pixels
 export const CD = {
@@ -28,7 +34,8 @@ export function sky() {
     return new THREE.DataTexture(texels, width, height, THREE.RGBAFormat, THREE.FloatType);
 }
 
-export const grating = (parameters) => new GratingMaterial({ rowland, grating: CD, side: THREE.DoubleSide, ...parameters });
+const Material = nodes ? GratingNodeMaterial : GratingMaterial;
+export const grating = (parameters) => new Material({ rowland, grating: CD, side: THREE.DoubleSide, ...parameters });
 
 export function plate(width = 1, height = 1) {
     const geometry = new THREE.PlaneGeometry(width, height);
@@ -62,7 +69,8 @@ export function eye(z = 2.2) {
     return camera;
 }
 
-export const renderer = new THREE.WebGLRenderer({ antialias: false });
+export const renderer = nodes ? new WebGPURenderer({ forceWebGL: task.renderer.endsWith("WebGL 2") }) : new THREE.WebGLRenderer({ antialias: false });
+await renderer.init?.();
 renderer.setSize(SIZE, SIZE, false);
 document.body.append(renderer.domElement);
 const target = new THREE.WebGLRenderTarget(SIZE, SIZE, { type: THREE.FloatType });
@@ -94,9 +102,12 @@ export async function picture(scene, camera = eye(), { by = renderer, to = targe
         by.setRenderTarget(null);
     };
     await settle(scene, draw);
-    const pixels = new Float32Array(4 * to.width * to.height);
-    by.readRenderTargetPixels(to, 0, 0, to.width, to.height, pixels);
-    return pixels;
+    const { width, height } = to;
+    const pixels = new Float32Array(4 * width * height);
+    if (by.isWebGLRenderer) by.readRenderTargetPixels(to, 0, 0, width, height, pixels);
+    else pixels.set(await by.readRenderTargetPixelsAsync(to, 0, 0, width, height));
+    if (!by.backend?.isWebGPUBackend) return pixels;
+    return pixels.map((_, i) => pixels[4 * width * (height - 1 - Math.floor(i / 4 / width)) + (i % (4 * width))]); // top first
 }
 
 /** What the canvas shows, bytes. */

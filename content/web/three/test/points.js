@@ -47,14 +47,14 @@ function grooveTexture(texels) {
     return texture;
 }
 
-/** Red, green and blue of each pixel, from the left below. */
-async function pixelsOf(renderer, target) {
+/** Red, green and blue of each pixel, from the left below, of a picture that may be upside down. */
+async function pixelsOf(renderer, target, flipped = false) {
     const { width, height } = target;
     let pixels = new Float32Array(4 * width * height);
     if (renderer.isWebGLRenderer) renderer.readRenderTargetPixels(target, 0, 0, width, height, pixels);
     else pixels = await renderer.readRenderTargetPixelsAsync(target, 0, 0, width, height);
     target.dispose();
-    const topFirst = renderer.backend?.isWebGPUBackend === true;
+    const topFirst = flipped || renderer.backend?.isWebGPUBackend === true;
     return Array.from({ length: width * height }, (_, i) => {
         const row = Math.floor(i / width);
         const at = 4 * ((topFirst ? height - 1 - row : row) * width + (i % width));
@@ -62,18 +62,22 @@ async function pixelsOf(renderer, target) {
     });
 }
 
-/** A tilted plane under a lamp, whose grooves vary within its pixels and from one to the next. */
-export async function picture({ renderer, Plain }, rowland, { grating, picture: [width, height] }) {
+/**
+ * A tilted plane under a lamp, whose grooves vary within its pixels and from one to the next. `flipped`: drawn from the top row on, as
+ * WebGPU draws.
+ */
+export async function picture({ renderer, Plain }, rowland, { grating, picture: [width, height] }, flipped = false) {
     const texels = Array.from({ length: 64 }, (_, i) => [(29 * i) % 255, i % 7 === 0 ? 0 : 128, 0, 255]);
     const grooves = new THREE.DataTexture(Uint8Array.from(texels.flat()), 8, 8);
     grooves.magFilter = THREE.LinearFilter;
-    const material = new Plain({ rowland, grating, grooveTexture: grooves });
+    const material = new Plain({ rowland, grating, grooveTexture: grooves, side: THREE.DoubleSide, specularIntensity: 0 });
     const plane = new THREE.PlaneGeometry(2, 2);
     plane.computeTangents();
     const scene = new THREE.Scene();
     const lamp = new THREE.PointLight(0xffffff, 400);
     lamp.position.set(2, 5, 7);
     const camera = new THREE.PerspectiveCamera(5, width / height).translateZ(15);
+    if (flipped) camera.projectionMatrix.elements[5] *= -1;
     scene.add(lamp, new THREE.Mesh(plane.rotateX(-0.6), material));
     const target = new THREE.WebGLRenderTarget(width, height, { type: THREE.FloatType });
     await material.solved;
@@ -85,7 +89,7 @@ export async function picture({ renderer, Plain }, rowland, { grating, picture: 
     renderer.setRenderTarget(target);
     renderer.render(scene, camera);
     material.dispose();
-    return pixelsOf(renderer, target);
+    return pixelsOf(renderer, target, flipped);
 }
 
 export async function radiance({ renderer, Material }, rowland, { grating, representation, frames, lamp, texels, mirrored }) {

@@ -99,14 +99,16 @@ try {
     await rowland.setProbe(light, { keyLights });
     const drawing = await renderersOf(renderers);
     const results = [];
+    const FLIPPED = "WebGLRenderer, upside down";
     for (const one of cases) {
         rowland.shared.clear();
         const shown = {};
         if (one.representation === "reference") shown.reference = await reference(rowland, one);
         else for (const [name, by] of Object.entries(drawing)) shown[name] = await (one.picture ? picture : radiance)(by, rowland, one);
+        if (one.picture) shown[FLIPPED] = await picture(drawing.WebGLRenderer, rowland, one, true);
         results.push(shown);
     }
-    await post({ results, errors: [...errors], refusals: await refusals() });
+    await post({ results, keys: [...(await rowland.fitKeyLights(keyLights))], errors: [...errors], refusals: await refusals() });
 } catch (error) {
     await post({ error: error.message + "\n" + error.stack, errors });
 }

@@ -2,14 +2,17 @@
 // sum over the ranks of the products from the vertices.
 import { atan, dot, float, int, length, log, max, min, select, varying, vec2, vec3, vertexIndex } from "three/tsl";
 import type { GrooveView } from "./grooves.js";
+import type { PosedVertex } from "./pose.js";
 import type { Float, Int, Program, Vec2, Vec3, Vec4 } from "./program.js";
 
 const [SPHERICAL, PARABOLIC] = [0, 1];
 
-export function arc(program: Program) {
+export function arc(program: Program, { isBatched, instance }: PosedVertex) {
     const layers = program.number("LAYERS");
+    const first = !isBatched ? float(instance).mul(program.float("products_stride"))
+        : program.knows("products_first") ? program.stored_vec4("products_first", instance).x : float(0);
     const arc_products: Vec4[] = Array.from({ length: 3 * layers }, (_, i) =>
-        varying(program.stored_vec4("vertex_products", int(vertexIndex).mul(3 * layers).add(i) as Int)));
+        varying(program.stored_vec4("vertex_products", int(first).add(int(vertexIndex)).mul(3 * layers).add(i) as Int)));
 
     /**
      * Texture coordinates of a tangent-frame view in a table, as bake/view_mapping.h lays views out. Views below the horizon

@@ -1,10 +1,11 @@
-import type { BatchedMesh, BufferGeometry, InstancedMesh, Mesh, Object3D, Scene, SkinnedMesh } from "three";
+import type { BufferGeometry, Mesh, Object3D, Scene } from "three";
 import {
     cameraWorldMatrix, diffuseColor, float, isolate, materialEnvIntensity, min, normalView, OnObjectUpdate,
     positionViewDirection, vec3, vec4,
 } from "three/tsl";
 import { EnvironmentNode, MeshPhysicalNodeMaterial, PhysicalLightingModel, type Node, type NodeBuilder } from "three/webgpu";
 import { withGrating, type GratingParameters } from "../with_grating.js";
+import { posed_vertex, type PosedVertex } from "./pose.js";
 import { Program, type Vec3 } from "./program.js";
 import { in_probe, surface, type Surface } from "./surface.js";
 
@@ -65,6 +66,7 @@ export class GratingNodeMaterial extends withGrating(MeshPhysicalNodeMaterial) {
     private readonly _program = new Program(this.state);
     private _eachFrame?: Node; // three updates a material each frame if a node is among its members
     private _surface?: Surface; // until a lighting model has it
+    private _vertex?: PosedVertex;
     private _light?: Vec3;
 
     static override get type(): string {
@@ -97,6 +99,11 @@ export class GratingNodeMaterial extends withGrating(MeshPhysicalNodeMaterial) {
         super.setupVariants(builder);
     }
 
+    override setupPosition(builder: NodeBuilder): never {
+        if (this._program.has("ROWLAND")) this._vertex = posed_vertex(builder);
+        return super.setupPosition(builder) as never;
+    }
+
     override setupEnvironment(builder: NodeBuilder): never {
         const environment = super.setupEnvironment(builder) as unknown as { envNode: Node } | null;
         return (environment && this._surface ? new MirroredEnvironment(environment.envNode) : environment) as never;
@@ -114,11 +121,7 @@ export class GratingNodeMaterial extends withGrating(MeshPhysicalNodeMaterial) {
         if (!program.has("ROWLAND")) return super.setupLighting(builder);
         const { scene, geometry, object } = building(builder);
         this.state.see(scene, geometry, object);
-        const { isInstancedMesh, isBatchedMesh, isSkinnedMesh } = object as Partial<InstancedMesh & BatchedMesh & SkinnedMesh>;
-        if (isInstancedMesh || isBatchedMesh || isSkinnedMesh || geometry.morphAttributes.position)
-            this.state.tell(`GratingNodeMaterial on "${object.name || object.type}": grooves do not follow instances, bones or morphs; ` +
-                "expected a mesh for each, or GratingMaterial and WebGLRenderer");
-        const grating = (this._surface = surface(program, geometry));
+        const grating = (this._surface = surface(program, geometry, this._vertex!));
         const light = (super.setupLighting(builder) as Vec3).toVar();
         // Without lights and environment three has asked for no lighting model.
         if (this._surface) light.addAssign(grating.grating_surface(vec3(0), vec3(0)));

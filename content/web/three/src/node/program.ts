@@ -35,7 +35,7 @@ export function loop(name: string, start: number, end: number | Int, body: (i: I
  */
 export class Program {
     private readonly slots = new Map<string, Slot>();
-    private lobes?: { array: Vector4[]; node: ReturnType<typeof uniformArray> };
+    private lobes?: { from?: unknown; array: Vector4[]; node: ReturnType<typeof uniformArray> };
 
     constructor(private readonly state: Pick<GratingState, "values" | "options">) {}
 
@@ -47,6 +47,11 @@ export class Program {
     }
     number(option: string): number {
         return Number(this.text(option));
+    }
+
+    /** Whether the value has come, for those that come with a mesh. Graphs are built again when it does. */
+    knows(name: string): boolean {
+        return name in this.state.values;
     }
 
     /** What distinguishes graphs. */
@@ -110,7 +115,9 @@ export class Program {
             const value = this.state.values[name].value as Value;
             if (kindOf(value) === kind) node.value = value;
         }
-        if (!this.lobes) return;
+        const { value } = this.state.values.key_lobes;
+        if (!this.lobes || this.lobes.from === value) return;
+        this.lobes.from = value;
         const array = this.lobeVectors();
         if (array.length === this.lobes.array.length) array.forEach((vector, i) => this.lobes!.array[i].copy(vector));
     }

@@ -1,7 +1,7 @@
 // src/glsl/surface.vert.glsl and src/glsl/surface.frag.glsl in TSL: the diffraction term for MeshPhysicalNodeMaterial.
 import {
     abs, attribute, cameraWorldMatrix, cross, determinant, dot, float, Fn, If, mat3, max, modelNormalMatrix, modelWorldMatrix,
-    normalize, normalLocal, positionLocal, positionView, select, uv, varying, vec3, vec4,
+    normalGeometry, normalize, normalLocal, positionView, select, uv, varying, vec3, vec4,
 } from "three/tsl";
 import type { BufferGeometry, Camera, OrthographicCamera } from "three";
 import { arc } from "./arc.js";
@@ -9,6 +9,7 @@ import { deviation_of, grooves, type GrooveInputs, type GrooveView, type PixelU 
 import { kernel } from "./kernel.js";
 import { key_light_windows } from "./key_light_windows.js";
 import { planar_map } from "./planar_map.js";
+import type { PosedVertex } from "./pose.js";
 import { loop, type Float, type Int, type Program, type Vec2, type Vec3, type Vec4 } from "./program.js";
 
 /** In the probe, of a direction in the world. */
@@ -19,17 +20,29 @@ const to_eye = Fn(({ camera }: { camera: Camera }) =>
     (camera as OrthographicCamera).isOrthographicCamera ? vec3(0, 0, 1) : positionView.negate()) as unknown as () => Vec3;
 
 /**
+ * g in the object's space before bones and instances: along the tangent, or away from the object's origin.
+ */
+function grooves_across(program: Program, geometry: BufferGeometry, { position, normal }: PosedVertex, tangent: Vec3): Vec3 {
+    const n = normalize(normal) as Vec3;
+    const radial = position.sub(n.mul(dot(position, n)));
+    const given = normalGeometry;
+    // The least rotation from the given normal to the morphed one.
+    const sum = given.add(n);
+    const turned = geometry.morphAttributes.normal
+        ? tangent.sub(sum.mul(dot(sum, tangent).div(max(dot(given, n).add(1), 1e-6)))).add(n.mul(dot(given, tangent).mul(2))) : tangent;
+    return select(program.float("radial_grooves").greaterThan(0.5), radial, turned) as Vec3;
+}
+
+/**
  * What grooves.ts reads, in the probe; positions count from the eye. The grating vector points along the mesh's tangent or
  * away from the object's origin.
  */
-function pass_grooves(program: Program, geometry: BufferGeometry): GrooveInputs {
+function pass_grooves(program: Program, geometry: BufferGeometry, vertex: PosedVertex): GrooveInputs {
     const tangent: Vec4 = geometry.hasAttribute("tangent") ? attribute("tangent", "vec4") : vec4(0, 0, 0, 1);
     const world_normal = normalize(modelNormalMatrix.mul(normalLocal)) as Vec3;
-    const radial = positionLocal.sub(normalLocal.mul(dot(positionLocal, normalLocal)));
-    const across = select(program.float("radial_grooves").greaterThan(0.5), radial, tangent.xyz);
     // A mirroring transform inverts the cross product.
-    const hand = select(determinant(mat3(modelWorldMatrix)).lessThan(0), tangent.w.negate(), tangent.w) as Float;
-    const g = modelWorldMatrix.mul(vec4(across, 0)).xyz as Vec3;
+    const hand = select(determinant(mat3(modelWorldMatrix)).mul(vertex.determinant).lessThan(0), tangent.w.negate(), tangent.w) as Float;
+    const g = modelWorldMatrix.mul(vec4(vertex.moved(grooves_across(program, geometry, vertex, tangent.xyz)), 0)).xyz as Vec3;
     const h = cross(world_normal, g).mul(hand);
     const groove_turn = program.vec2("groove_turn"); // cosine and sine
     const world_grating = in_probe(program, g.mul(groove_turn.x).add(h.mul(groove_turn.y)) as Vec3);
@@ -48,14 +61,14 @@ function pass_grooves(program: Program, geometry: BufferGeometry): GrooveInputs 
 export type Surface = ReturnType<typeof surface>;
 
 /** Call it, as its functions, where statements are added to a fragment's graph. */
-export function surface(program: Program, geometry: BufferGeometry) {
-    const groove = grooves(program, pass_grooves(program, geometry));
+export function surface(program: Program, geometry: BufferGeometry, vertex: PosedVertex) {
+    const groove = grooves(program, pass_grooves(program, geometry, vertex));
     const colours = kernel(program, groove);
     const { cover_transmittance } = groove;
     const { groove_factor, kernel_to_working, pitch_kernel_value } = colours;
     const key_lights = key_light_windows(program, groove, colours);
     const planar = program.has("ROWLAND_PLANAR") ? planar_map(program) : undefined;
-    const table = program.has("ROWLAND_ARC") ? arc(program) : undefined;
+    const table = program.has("ROWLAND_ARC") ? arc(program, vertex) : undefined;
 
     // prepare_grooves()
     const lit_view = groove.groove_view();
