@@ -14,13 +14,15 @@ import type { Rowland } from "./shared/rowland.js";
 const GRATING = "ROWLAND_materials_diffraction";
 const FILM = "ROWLAND_films"; // of this loader's extensions, beside Babylon's own for KHR_materials_iridescence
 
-class GratingExtension implements IGLTFLoaderExtension {
-    readonly name = GRATING;
+abstract class Extension implements IGLTFLoaderExtension {
+    abstract readonly name: string;
     enabled = true;
-
-    constructor(private readonly loader: GLTFLoader, private readonly rowland: Rowland) {}
-
+    constructor(protected readonly loader: GLTFLoader, protected readonly rowland: Rowland) {}
     dispose(): void {}
+}
+
+class GratingExtension extends Extension {
+    readonly name = GRATING;
 
     /** Gives each mesh a material, so that flat ones keep their maps beside curved ones. */
     _loadMaterialAsync(context: string, material: IMaterial, _: Mesh | null, drawMode: number, assign: (material: Material) => void) {
@@ -43,14 +45,9 @@ class GratingExtension implements IGLTFLoaderExtension {
     }
 }
 
-class FilmExtension implements IGLTFLoaderExtension {
+class FilmExtension extends Extension {
     readonly name = FILM;
     readonly order = 1; // before Babylon's, whose textures it awaits
-    enabled = true;
-
-    constructor(private readonly loader: GLTFLoader, private readonly rowland: Rowland) {}
-
-    dispose(): void {}
 
     loadMaterialPropertiesAsync(context: string, material: IMaterial, own: Material): Promise<void> | null {
         const iridescence = material.extensions?.KHR_materials_iridescence as Iridescence | undefined;
@@ -61,9 +58,9 @@ class FilmExtension implements IGLTFLoaderExtension {
     }
 }
 
-function register(name: string, isGltf: boolean, Extension: new (loader: GLTFLoader, rowland: Rowland) => IGLTFLoaderExtension, rowland: Rowland): void {
+function register(name: string, isGltf: boolean, Type: new (...of: [GLTFLoader, Rowland]) => Extension, rowland: Rowland): void {
     unregisterGLTFExtension(name);
-    registerGLTFExtension(name, isGltf, (loader) => new Extension(loader as GLTFLoader, rowland));
+    registerGLTFExtension(name, isGltf, (loader) => new Type(loader as GLTFLoader, rowland));
 }
 
 /** Loads ROWLAND_materials_diffraction from now on, with `rowland`'s workers. */

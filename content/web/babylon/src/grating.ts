@@ -6,24 +6,26 @@ import type { Mesh } from "@babylonjs/core/Meshes/mesh.js";
 import type { SubMesh } from "@babylonjs/core/Meshes/subMesh.js";
 import type { Scene } from "@babylonjs/core/scene.js";
 import { toProbe } from "./engine.js";
-import { definitions, only, ValuesPlugin } from "./plugin.js";
+import { definitions, only as onlyIf, ValuesPlugin } from "./plugin.js";
 import { FRAGMENT, VERTEX } from "./shared/generated/shaders.js";
 import { GratingState, type GratingOwner, type GratingSettings } from "./shared/grating_state.js";
 
 /** The attribute that numbers the instances of createInstance(), of which Babylon draws those in sight alone. */
 const INSTANCE = "groove_instance";
 
+const only = (text: string) => onlyIf("defined(ROWLAND)", text);
+
 /** three's GLSL, which takes directions in its view, with Babylon's world for that. */
 const ofThree = (text: string) => definitions("#define SHOWN_LAYERS LAYERS\n#define viewMatrix mat4(1.0)\n" + text);
 const CODE: Record<string, Record<string, string>> = {
     vertex: {
-        CUSTOM_VERTEX_DEFINITIONS: only("defined(ROWLAND)", `#if defined(INSTANCES) && !defined(THIN_INSTANCES)
+        CUSTOM_VERTEX_DEFINITIONS: only(`#if defined(INSTANCES) && !defined(THIN_INSTANCES)
 in float ${INSTANCE};
 #else
 #define ${INSTANCE} gl_InstanceID
 #endif
 ${ofThree(VERTEX)}`),
-        CUSTOM_VERTEX_UPDATE_WORLDPOS: only("defined(ROWLAND)", `vec4 across = vec4(1.0);
+        CUSTOM_VERTEX_UPDATE_WORLDPOS: only(`vec4 across = vec4(1.0);
 #ifdef TANGENT
 across = tangentUpdated;
 #endif
@@ -32,8 +34,8 @@ groove_normal = normalUpdated;
 pass_grooves(normal, across, mat3(finalWorld), vNormalW, int(${INSTANCE}));`),
     },
     fragment: {
-        CUSTOM_FRAGMENT_DEFINITIONS: only("defined(ROWLAND)", ofThree(FRAGMENT)),
-        CUSTOM_FRAGMENT_BEFORE_LIGHTS: only("defined(ROWLAND)", `vec3 to_eye = vEyePosition.xyz - vPositionW;
+        CUSTOM_FRAGMENT_DEFINITIONS: only(ofThree(FRAGMENT)),
+        CUSTOM_FRAGMENT_BEFORE_LIGHTS: only(`vec3 to_eye = vEyePosition.xyz - vPositionW;
 if (projection[2][3] == 0.0) { // orthographic
 to_eye = vec3(view[0].z, view[1].z, view[2].z);
 #ifndef RIGHT_HANDED
@@ -46,9 +48,9 @@ prepare_grooves(to_eye, vNormalW);`),
             `diffuseBase+=info.diffuse*shadowDebug$1;
 #else
 diffuseBase+=info.diffuse*shadow;
-` + only("defined(ROWLAND) && (defined(DIRLIGHT$1) || defined(POINTLIGHT$1) || defined(SPOTLIGHT$1))",
+` + onlyIf("defined(ROWLAND) && (defined(DIRLIGHT$1) || defined(POINTLIGHT$1) || defined(SPOTLIGHT$1))",
                 "add_lamp(in_probe(preInfo.L), vLightingIntensity.x * preInfo.attenuation * shadow * diffuse$1.rgb);"),
-        CUSTOM_FRAGMENT_BEFORE_FOG: only("defined(ROWLAND)", `vec4 mirrored = vec4(0.0);
+        CUSTOM_FRAGMENT_BEFORE_FOG: only(`vec4 mirrored = vec4(0.0);
 #if defined(REFLECTION) && !defined(UNLIT)
 #ifdef LODBASEDMICROSFURACE
 mirrored = sampleReflectionLod(reflectionSampler, reflectionOut.reflectionCoords, 0.0);

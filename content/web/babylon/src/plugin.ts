@@ -15,12 +15,12 @@ const DEFINES = Object.fromEntries(OPTIONS.map((name) => [name, false]));
 /** The type of each uniform by its name; of textures, sampler2D or others. */
 const TYPES = new Map([...(VERTEX + FRAGMENT + FILM_TABLE).matchAll(/uniform (\w+) (\w+);|STORAGE\(\d+,\w+,\w+,(\w+)\)/g)]
     .map(([, type = "sampler2D", name, stored]) => [name ?? stored, type]));
-const SETTERS: Record<string, "setInt" | "setFloat" | "setVector2" | "setVector3" | "setVector4" | "setMatrix3x3"> = { int: "setInt",
-    float: "setFloat", vec2: "setVector2", vec3: "setVector3", vec4: "setVector4", mat3: "setMatrix3x3" };
+const SETTERS = { int: "setInt", float: "setFloat", vec2: "setVector2", vec3: "setVector3", vec4: "setVector4", mat3: "setMatrix3x3" } as const;
 const KEY_LOBE = ["direction", "flux", "moments", "turns", "mean", "variance", "height"];
-const UNIFORMS = [...[...TYPES.keys()].filter((name) => SETTERS[TYPES.get(name)!]),
+const isNumber = (name: string) => TYPES.get(name)! in SETTERS;
+const UNIFORMS = [...[...TYPES.keys()].filter(isNumber),
     ...Array.from({ length: 64 }, (_, light) => KEY_LOBE.map((member) => `key_lobes[${light}].${member}`)).flat()];
-const SAMPLERS = [...TYPES.keys()].filter((name) => !SETTERS[TYPES.get(name)!]);
+const SAMPLERS = [...TYPES.keys()].filter((name) => !isNumber(name));
 
 /** GLSL's own preprocessor evaluates "# if"; Babylon's, which evaluates "#if", knows neither all operators nor continued lines. */
 export const only = (condition: string, text: string): string => `# if ${condition}\n${text.replace(/^#(?=\w)/gm, "# ")}\n# endif`;
@@ -75,7 +75,7 @@ export abstract class ValuesPlugin extends MaterialPluginBase {
             if (value instanceof Texture) effect.setTexture(name, value.of(scene));
             else if (name === "key_lobes")
                 (value as Record<string, Vector4>[]).forEach((one, i) => KEY_LOBE.forEach((member) => effect.setVector4(`key_lobes[${i}].${member}`, one[member])));
-            else effect[SETTERS[TYPES.get(name)!]](name, value as never);
+            else effect[SETTERS[TYPES.get(name) as keyof typeof SETTERS]](name, value as never);
         }
     }
 }

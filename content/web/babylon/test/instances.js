@@ -57,7 +57,7 @@ async function picture(engine, rowland, { shape, way = "meshes", camera = "near"
     const scene = new Scene(engine);
     scene.useRightHandedSystem = hand === "right";
     scene.clearColor = new Color4(0, 0, 0, 1);
-    const eye = new FreeCamera("eye", new Vector3(0.05, 0.15, hand === "right" ? 0.4 : -0.4), scene);
+    const eye = new FreeCamera("eye", new Vector3(0.05, 0.15, 0.4), scene);
     CAMERAS[camera](eye);
     eye.setTarget(Vector3.Zero());
     WAYS[way](SHAPES[shape], rowland, scene);

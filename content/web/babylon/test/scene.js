@@ -66,7 +66,7 @@ export const strip = grid(8, 24, (s, t) => {
 function gltf() {
     const foil = grid(1, 1, (s, t) => [[0.08 * (s - 0.5), 0.05 * (t - 0.5), 0], [0, 0, 1], [1, 0, 0, 1]]);
     const ball = grid(32, 16, (s, t) => {
-        const normal = [Math.sin(Math.PI * t) * Math.cos(angle(s)), Math.cos(Math.PI * t), -Math.sin(Math.PI * t) * Math.sin(angle(s))];
+        const normal = [Math.sin(Math.PI * t) * Math.cos(angle(s)), Math.cos(Math.PI * t), Math.sin(Math.PI * t) * Math.sin(angle(s))];
         return [normal.map((x) => 0.02 * x), normal];
     });
     const [accessors, views, bytes] = [[], [], []];
@@ -128,8 +128,11 @@ export async function byBabylon(rowland, panorama, kinds) {
         scene.render();
     };
     for (const kind of kinds) {
-        for (const { pluginManager } of scene.materials)
-            if (pluginManager?.getPlugin("Rowland")) pluginManager.getPlugin("Rowland").state.diffractionOnly = kind === "diffracted";
+        for (const mesh of scene.meshes) {
+            const grating = mesh.material?.pluginManager?.getPlugin("Rowland");
+            if (grating) grating.state.diffractionOnly = kind === "diffracted";
+            else if (mesh.material) mesh.isVisible = kind === "whole";
+        }
         await draw();
         await idle(rowland);
         await draw();
@@ -158,7 +161,11 @@ export async function byThree(rowland, panorama, kinds) {
     scene.environment = Object.assign(image, { mapping: THREE.EquirectangularReflectionMapping, minFilter: THREE.LinearFilter, magFilter: THREE.LinearFilter });
     const pictures = {};
     for (const kind of kinds) {
-        scene.traverse(({ material }) => material?.isGratingMaterial && (material.diffractionOnly = kind === "diffracted"));
+        scene.traverse((object) => {
+            const { material } = object;
+            if (material?.isGratingMaterial) material.diffractionOnly = kind === "diffracted";
+            else if (material) object.visible = kind === "whole";
+        });
         renderer.render(scene, camera);
         await idle(rowland);
         renderer.render(scene, camera);
