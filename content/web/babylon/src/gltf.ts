@@ -52,6 +52,8 @@ class FilmExtension extends Extension {
     loadMaterialPropertiesAsync(context: string, material: IMaterial, own: Material): Promise<void> | null {
         const iridescence = material.extensions?.KHR_materials_iridescence as Iridescence | undefined;
         if (!iridescence || material.extensions?.[GRATING]) return null;
+        for (const info of [iridescence.iridescenceTexture, iridescence.iridescenceThicknessTexture])
+            if (info) Object.assign(info, { nonColorData: true }); // Babylon's loader takes them for colours in sRGB
         const plugin = new FilmPlugin(own as PBRMaterial, {});
         return this.loader.loadMaterialPropertiesAsync(context, material, own)
             .then(() => plugin.bake(this.rowland, filmOf(iridescence, material.pbrMetallicRoughness?.roughnessFactor ?? 1)));

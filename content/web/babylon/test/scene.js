@@ -139,9 +139,10 @@ export async function byBabylon(rowland, panorama, kinds) {
         pictures[kind] = canvas.toDataURL("image/png");
     }
     const [film] = scene.materials.filter(({ pluginManager }) => pluginManager?.getPlugin("RowlandFilm"));
-    const { minimumThickness, maximumThickness, indexOfRefraction } = film.iridescence;
+    const { minimumThickness, maximumThickness, indexOfRefraction, thicknessTexture } = film.iridescence;
     const { tableError } = film.pluginManager.getPlugin("RowlandFilm");
-    return { pictures, canvas, film: { minimumThickness, maximumThickness, indexOfRefraction, tableError } };
+    return { pictures, canvas, film: { minimumThickness, maximumThickness, indexOfRefraction, tableError,
+        sRgb: thicknessTexture.getInternalTexture()._useSRGBBuffer } };
 }
 
 export async function byThree(rowland, panorama, kinds) {
