@@ -1,8 +1,9 @@
 import { RGBE_ReadHeader, RGBE_ReadPixels } from "@babylonjs/core/Misc/HighDynamicRange/hdr.js";
 import type { Panorama } from "./shared/rowland.js";
 
-export { registerGratings } from "./gltf.js";
-export { GratingPlugin, gratingMaterial } from "./plugin.js";
+export { FilmPlugin, filmMaterial, type FilmSettings } from "./film.js";
+export { registerFilms, registerGratings } from "./gltf.js";
+export { GratingPlugin, gratingMaterial } from "./grating.js";
 export { Rowland, type Efficiencies, type Panorama } from "./shared/rowland.js";
 export type { GratingSettings } from "./shared/grating_state.js";
 export type { Representation } from "./shared/surface.js";

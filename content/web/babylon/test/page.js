@@ -1,10 +1,12 @@
 // All that the tests draw, in one page: what they compare is posted to /result.
 import { Engine } from "@babylonjs/core/Engines/engine.js";
 import * as THREE from "../../three/node_modules/three/build/three.module.js";
-import { Rowland as ThreeRowland } from "../../three/dist/index.js";
+import { FilmMaterial, Rowland as ThreeRowland } from "../../three/dist/index.js";
+import { shown as filmByThree } from "../../three/test/film_points.js";
 import { PointMaterial, radiance as radianceByThree } from "../../three/test/points.js";
 import { readPanorama, Rowland } from "../dist/index.js";
-import { panoramaOfDirections, radiance } from "./points.js";
+import { comparisons } from "./instances.js";
+import { filmReflectance, panoramaOf, panoramaOfDirections, radiance } from "./points.js";
 import { byBabylon, byThree } from "./scene.js";
 
 const post = (value) => fetch("/result", { method: "POST", body: JSON.stringify(value) });
@@ -24,7 +26,7 @@ async function rowlandUnder(Class, probe, keys) {
 }
 
 try {
-    const { cases, mirrors, kinds } = await (await fetch("/task")).json();
+    const { cases, mirrors, films, kinds } = await (await fetch("/task")).json();
     const started = performance.now();
     const times = {};
     const took = (name) => (times[name] = Math.round(performance.now() - started));
@@ -44,9 +46,16 @@ try {
     const byThreePoints = [];
     for (const one of cases) byThreePoints.push(one.three ? await radianceByThree({ renderer, Material: PointMaterial }, three.rowland, one) : null);
     took("three's points");
+    const white = URL.createObjectURL(panoramaOf(32, 16, () => [128, 128, 128, 129]));
+    const filmResults = [];
+    for (const one of films)
+        filmResults.push({ babylon: await filmReflectance(engine, rowland, white, one), three: await filmByThree([renderer, FilmMaterial], three.rowland, one) });
+    took("films");
+    const compared = await comparisons(rowland, pixelsOfUrl);
+    took("instances and cameras");
     const scenes = { babylon: await byBabylon(rowland, "light.hdr", kinds), three: await byThree(three.rowland, panorama, kinds) };
     took("scenes");
-    const pictures = {};
+    const pictures = Object.fromEntries(compared.flatMap(({ name, urls }) => Object.entries(urls).map(([of, url]) => [`${name}_${of}`, url])));
     const diffracted = {};
     for (const [name, { pictures: drawn }] of Object.entries(scenes)) {
         diffracted[name] = await pixelsOfUrl(drawn.diffracted);
@@ -65,7 +74,7 @@ try {
     }
     took("example");
     pictures.disc = canvas.toDataURL("image/png");
-    await post({ errors, results, mirrored, byThree: byThreePoints, diffracted, pictures, green, times });
+    await post({ errors, results, mirrored, byThree: byThreePoints, diffracted, films: filmResults, compared, gltfFilm: scenes.babylon.film, pictures, green, times });
 } catch (error) {
     await post({ errors: [...errors, error.message + "\n" + error.stack] });
 }

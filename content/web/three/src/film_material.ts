@@ -1,5 +1,5 @@
 import { MeshPhysicalMaterial, type IUniform, type WebGLProgramParametersWithUniforms } from "three";
-import { FILM } from "./generated/shaders.js";
+import { FILM, FILM_TABLE } from "./generated/shaders.js";
 import { withFilm, type FilmValues } from "./with_film.js";
 
 /**
@@ -27,7 +27,7 @@ export class FilmMaterial extends withFilm(MeshPhysicalMaterial) {
             const only = (text: string) => text && `#if defined(ROWLAND_FILM) && defined(USE_IRIDESCENCE)\n${text}\n#endif\n`;
             shader.fragmentShader = shader.fragmentShader.replace(`#include <${chunk}>`, `${only(before)}#include <${chunk}>\n${only(after)}`);
         };
-        put("lights_physical_pars_fragment", "", FILM);
+        put("lights_physical_pars_fragment", "", `${FILM_TABLE}\n${FILM}`);
         put("lights_physical_fragment", "",
             "prepare_film(material, saturate(dot(normal, normalize(vViewPosition))), roughnessFactor);");
         // Where the base is clear the film still reflects, and passes the rest. Colours are multiplied by alpha already.

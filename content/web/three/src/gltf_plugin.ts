@@ -1,5 +1,6 @@
 import { Matrix4, type BufferGeometry, type Mesh, type MeshPhysicalMaterial } from "three";
 import type { GLTF, GLTFLoaderPlugin, GLTFParser } from "three/examples/jsm/loaders/GLTFLoader.js";
+import { filmOf, type Iridescence } from "./film_table.js";
 import { flatNormal } from "./frames.js";
 import type { Rowland } from "./rowland.js";
 import type { FilmParameters } from "./with_film.js";
@@ -65,16 +66,6 @@ export abstract class GratingPlugin extends MaterialPlugin {
     }
 }
 
-interface Iridescence {
-    readonly iridescenceFactor?: number;
-    readonly iridescenceTexture?: { index: number };
-    readonly iridescenceIor?: number;
-    readonly iridescenceThicknessMinimum?: number;
-    readonly iridescenceThicknessMaximum?: number;
-    readonly iridescenceThicknessTexture?: { index: number };
-    readonly extras?: { readonly metal?: string; readonly base?: object; readonly illuminant?: string };
-}
-
 /** That for KHR_materials_iridescence. */
 export abstract class FilmPlugin extends MaterialPlugin {
     readonly name = "KHR_materials_iridescence";
@@ -82,15 +73,13 @@ export abstract class FilmPlugin extends MaterialPlugin {
     async extendMaterialParams(material: number, parameters: FilmParameters): Promise<void> {
         const iridescence = this.extension(material) as Iridescence | undefined;
         if (!iridescence) return;
-        const { iridescenceIor: ior = 1.3, iridescenceThicknessMinimum: least = 100, iridescenceThicknessMaximum: most = 400, extras = {} } = iridescence;
+        const { iridescenceThicknessMinimum: least = 100, iridescenceThicknessMaximum: most = 400 } = iridescence;
         parameters.iridescence = iridescence.iridescenceFactor ?? 0;
         parameters.iridescenceThicknessRange = [least, most];
         if (iridescence.iridescenceTexture) await this.parser.assignTexture(parameters, "iridescenceMap", iridescence.iridescenceTexture);
         if (iridescence.iridescenceThicknessTexture)
             await this.parser.assignTexture(parameters, "iridescenceThicknessMap", iridescence.iridescenceThicknessTexture);
-        const { metal, base, illuminant } = extras;
-        const { pbrMetallicRoughness = {} } = this.parser.json.materials[material];
-        parameters.film = { film: { ior, thickness_nm: most }, metal, base, illuminant, roughness: pbrMetallicRoughness.roughnessFactor ?? 1 };
+        parameters.film = filmOf(iridescence, this.parser.json.materials[material].pbrMetallicRoughness?.roughnessFactor ?? 1);
         parameters.rowland = this.rowland;
     }
 }

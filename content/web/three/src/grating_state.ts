@@ -1,7 +1,8 @@
 import {
-    arrayTexture, frames, grooveMap, groovesOf, Matrix3, MOST_STORED, probeFromWorld, rotationsOf, storageTexture, takeContent, Texture,
-    Vector2, Vector3, Vector4, volumeTexture, type BufferGeometry, type GrooveMap, type Grooves, type Object3D, type Scene,
+    arrayTexture, coordinatesOf, frames, grooveImage, groovesOf, Matrix3, MOST_STORED, probeFromWorld, storageTexture, takeContent, Texture,
+    Vector2, Vector3, Vector4, volumeTexture, type BufferGeometry, type Grooves, type GrooveTexture, type Object3D, type Scene,
 } from "./engine.js";
+import { grooveMap, rotationAt, type GrooveImage, type GrooveMap } from "./groove_map.js";
 import type { Efficiencies, Rowland } from "./rowland.js";
 import { planeValues, productValues, Surface, type Representation } from "./surface.js";
 import { RANK, type MaterialTables, type Pitches } from "./tasks.js";
@@ -20,7 +21,7 @@ export interface GratingSettings {
     /** By default "planar" for flat meshes, else "arc". */
     representation?: Representation;
     /** Varies the grooves over the surface. R: rotation / π; G: half the pitch over the grating's; 0: no grating. */
-    grooveTexture?: Texture;
+    grooveTexture?: GrooveTexture;
 }
 
 /** A material that draws a GratingState, whichever renderer it is for. */
@@ -77,7 +78,8 @@ export class GratingState {
     private efficiencies?: Efficiencies | Float32Array; // given, or solved
     private grooves?: Grooves;
     private representation?: Representation;
-    private grooveTexture?: Texture;
+    private grooveTexture?: GrooveTexture;
+    private grooveImage?: GrooveImage;
     private grooveMap?: GrooveMap;
     private readonly number = ++states;
     private bakes = 0;
@@ -110,7 +112,9 @@ export class GratingState {
         this.rowland = rowland;
         this.grating = grating;
         this.efficiencies = efficiencies;
-        this.ready = rowland.material(this.number, grating, efficiencies).then((tables) => {
+        const image = this.grooveTexture && grooveImage(this.grooveTexture);
+        this.ready = Promise.all([rowland.material(this.number, grating, efficiencies), image]).then(([tables, image]) => {
+            this.grooveImage = image;
             if (!this.disposed) this.setKernel(tables);
         });
         const bake = ++this.bakes;
@@ -225,24 +229,24 @@ export class GratingState {
         this.flag("COVER", facts[FACT.ior] > 0);
         this.flag("ZERO_ORDER", facts.subarray(FACT.zeroOrder, FACT.zeroOrder + 9).some((x) => x !== 0));
         for (const [name, value] of Object.entries(this.lightValues(new Float32Array()))) if (!this.values[name]) this.put(name, value);
-        if (this.grooveTexture) this.setGrooveMap(this.grooveTexture, facts[FACT.even] === 1);
+        if (this.grooveImage) this.setGrooveMap(this.grooveImage, facts[FACT.even] === 1);
         if (!this.rowland!.hasLight) this.flag("ROWLAND", true); // else with the first map or table
         this.follow();
         if (this.options.has("ROWLAND")) this.rowland!.onUpdate();
     }
 
-    private setGrooveMap(texture: Texture, even: boolean): void {
+    private setGrooveMap(image: GrooveImage, even: boolean): void {
         const sparkle = (this.grating as { grooveTexture?: { sparkle?: boolean } }).grooveTexture?.sparkle ?? false;
-        const map = (this.grooveMap = grooveMap(texture, even, sparkle));
+        const map = (this.grooveMap = grooveMap(image, even, sparkle));
         if (this.pitches && !this.flatLobe && this.representation !== "direct")
             throw new Error(`grooveTexture: pitches of ${map.smallest.toPrecision(3)} to ${map.largest.toPrecision(3)} times pitch_nm ` +
                 'with a groove_lobe that is not flat; expected the flat groove_lobe or the representation "direct"');
         this.set("groove_map", map.moments);
         this.set("groove_map_rest", map.rest);
-        this.set("groove_uv_linear", map.uvLinear);
-        this.set("groove_uv_offset", map.uvOffset);
+        this.set("groove_uv_linear", image.uvLinear);
+        this.set("groove_uv_offset", image.uvOffset);
         this.set("groove_pitch", map.smallest);
-        this.option("ROWLAND_GROOVE_UV", map.uv);
+        this.option("ROWLAND_GROOVE_UV", image.uv);
         this.flag("GROOVE_GAPS", map.gaps);
         this.flag("GROOVES_EVEN", even);
     }
@@ -318,7 +322,7 @@ export class GratingState {
         }
         const details = rowland.preview ? (["coarse"] as const) : (["coarse", "full"] as const);
         for (const detail of details) {
-            const map = await rowland.plane(this.number, normal.toArray(), this.flatLobe, this.pitches, detail);
+            const map = await rowland.plane(this.number, [normal.x, normal.y, normal.z], this.flatLobe, this.pitches, detail);
             if (!isCurrent()) return;
             this.give(surface, { ...light, ...planeValues(map) });
             surface.show("planar", lightVersion, detail === details[details.length - 1]);
@@ -336,8 +340,10 @@ export class GratingState {
         const { lightVersion } = rowland;
         const pitches = this.pitches;
         const turn = this.rotation;
-        const turns = this.grooveMap && rotationsOf(this.grooveMap, this.grooveTexture!, geometry);
-        const { normals, gratings } = frames(object, geometry, toProbe, this.groovesOf(geometry), (i) => turn + (turns?.[i] ?? 0));
+        const image = this.grooveImage;
+        const coordinates = image && coordinatesOf(geometry, image.uv);
+        const turnOf = (vertex: number) => turn + (coordinates ? rotationAt(image, ...coordinates(vertex)) : 0);
+        const { normals, gratings } = frames(object, geometry, toProbe, this.groovesOf(geometry), turnOf);
         if (!this.hasArcTable) {
             const arc = await rowland.arc(this.number, BANDS, pitches);
             if (!isCurrent()) return;

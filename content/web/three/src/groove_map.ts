@@ -1,50 +1,36 @@
-import {
-    ClampToEdgeWrapping, DataTexture, DataUtils, HalfFloatType, LinearFilter, LinearMipmapLinearFilter, MirroredRepeatWrapping,
-    NearestFilter, RGBAFormat, Vector2, Vector4, type BufferGeometry, type Texture, type Wrapping,
-} from "three";
+import { fromHalf, mipmapTexture, Vector2, Vector4, type Texture } from "./engine.js";
 import { toHalf } from "./half.js";
 
-/**
- * What grooves.glsl reads of a groove texture (R: rotation / π, G: half the pitch over the material's; 0: no grating):
- * the moments of modules/diffraction/runtime/groove_map.h, as halves and what these round off.
- */
+export type Wrap = "clamp" | "repeat" | "mirror";
+
+/** A groove texture's texels: R is the rotation / π, G half the pitch over the material's; 0: no grating. */
+export interface GrooveImage {
+    /** RGBA, the row at v = 0 first. */
+    readonly bytes: ArrayLike<number>;
+    readonly width: number;
+    readonly height: number;
+    readonly wraps: readonly [u: Wrap, v: Wrap];
+    readonly nearest: boolean;
+    /** From the coordinates of this attribute to the texture's: the 2x2 part by columns, and the offset. */
+    readonly uv: string;
+    readonly uvLinear: Vector4;
+    readonly uvOffset: Vector2;
+}
+
+/** What grooves.glsl reads of a groove texture: the moments of modules/diffraction/runtime/groove_map.h, as halves and what these round off. */
 export interface GrooveMap {
-    readonly moments: DataTexture;
-    readonly rest: DataTexture;
+    readonly moments: Texture;
+    readonly rest: Texture;
     /** The smallest and the largest pitch, over the material's. */
     readonly smallest: number;
     readonly largest: number;
     readonly gaps: boolean;
-    /** From the coordinates of this attribute to the texture's: the 2x2 part by columns, and the offset. */
-    readonly uv: "uv" | "uv1";
-    readonly uvLinear: Vector4;
-    readonly uvOffset: Vector2;
-    /** The grooves' rotation at texture coordinates, in radians, from the texture's largest level. */
-    rotation(u: number, v: number): number;
 }
 
 interface Level {
     width: number;
     height: number;
     data: Float32Array; // RGBA
-}
-
-/** RGBA bytes, the row at v = 0 first. */
-function bytesOf(texture: Texture): { data: ArrayLike<number>; width: number; height: number } {
-    const image = texture.image as { data?: Uint8Array; width: number; height: number };
-    const { width, height } = image;
-    let { data } = image as { data?: ArrayLike<number> };
-    if (!data) {
-        const context = new OffscreenCanvas(width, height).getContext("2d", { willReadFrequently: true })!;
-        context.drawImage(image as never, 0, 0);
-        data = context.getImageData(0, 0, width, height).data;
-    }
-    if (data.length !== 4 * width * height) throw new Error("grooveTexture: expected a texture of RGBA bytes");
-    if (!texture.flipY) return { data, width, height };
-    const flipped = new Uint8Array(data.length);
-    for (let row = 0; row < height; ++row)
-        for (let i = 0; i < 4 * width; ++i) flipped[4 * width * row + i] = data[4 * width * (height - 1 - row) + i];
-    return { data: flipped, width, height };
 }
 
 /** A level of half the width and height, rounded down: linear between the centres of texels. */
@@ -89,72 +75,38 @@ function momentsOf(bytes: ArrayLike<number>, even: boolean, gaps: boolean, small
     return moments;
 }
 
-function texture(levels: Level[], texel: (value: number) => number, nearest: boolean, like: Texture): DataTexture {
-    const mipmaps = levels.map(({ width, height, data }) => ({ width, height, data: Uint16Array.from(data, texel) }));
-    const result = new DataTexture(mipmaps[0].data, mipmaps[0].width, mipmaps[0].height, RGBAFormat, HalfFloatType);
-    if (levels.length > 1) result.mipmaps = mipmaps as never;
-    result.wrapS = like.wrapS;
-    result.wrapT = like.wrapT;
-    result.magFilter = nearest ? NearestFilter : LinearFilter;
-    result.minFilter = nearest ? NearestFilter : LinearMipmapLinearFilter;
-    result.needsUpdate = true;
-    return result;
-}
-
 /** The column or row of an image after wrapping. */
-function wrapped(index: number, size: number, wrap: Wrapping): number {
-    if (wrap === ClampToEdgeWrapping) return Math.min(Math.max(index, 0), size - 1);
-    const period = wrap === MirroredRepeatWrapping ? 2 * size : size;
+function wrapped(index: number, size: number, wrap: Wrap): number {
+    if (wrap === "clamp") return Math.min(Math.max(index, 0), size - 1);
+    const period = wrap === "mirror" ? 2 * size : size;
     const within = ((index % period) + period) % period;
     return within < size ? within : period - 1 - within;
 }
 
-function rotationAt({ bytes, width, height, nearest, like }: { bytes: ArrayLike<number>; width: number; height: number; nearest: boolean; like: Texture },
-    u: number, v: number): number {
+/** The grooves' rotation in radians where a vertex has these coordinates, from the image's largest level. */
+export function rotationAt({ bytes, width, height, wraps, nearest, uvLinear: m, uvOffset }: GrooveImage, x: number, y: number): number {
+    const [u, v] = [m.x * x + m.z * y + uvOffset.x, m.y * x + m.w * y + uvOffset.y];
     const red = (column: number, row: number) =>
-        (Math.PI / 255) * bytes[4 * (wrapped(row, height, like.wrapT) * width + wrapped(column, width, like.wrapS))];
+        (Math.PI / 255) * bytes[4 * (wrapped(row, height, wraps[1]) * width + wrapped(column, width, wraps[0]))];
     if (nearest) return red(Math.floor(u * width), Math.floor(v * height));
-    const [x, y] = [u * width - 0.5, v * height - 0.5];
-    const [column, row] = [Math.floor(x), Math.floor(y)];
-    const inRow = (at: number) => red(column, at) + (x - column) * (red(column + 1, at) - red(column, at));
-    return inRow(row) + (y - row) * (inRow(row + 1) - inRow(row));
-}
-
-/** The rotation of a groove texture at each vertex. `texture`: gives the texture coordinates and their transform. */
-export function rotationsOf({ rotation }: GrooveMap, texture: Texture, geometry: BufferGeometry): number[] {
-    const coordinates = geometry.getAttribute(texture.channel === 0 ? "uv" : "uv1");
-    const at = new Vector2();
-    texture.updateMatrix();
-    return Array.from({ length: geometry.getAttribute("position").count }, (_, vertex) => {
-        if (coordinates) at.fromBufferAttribute(coordinates as never, vertex);
-        else at.set(0, 0);
-        at.applyMatrix3(texture.matrix);
-        return rotation(at.x, at.y);
-    });
+    const [left, below] = [u * width - 0.5, v * height - 0.5];
+    const [column, row] = [Math.floor(left), Math.floor(below)];
+    const inRow = (at: number) => red(column, at) + (left - column) * (red(column + 1, at) - red(column, at));
+    return inRow(row) + (below - row) * (inRow(row + 1) - inRow(row));
 }
 
 /** `even`: whether the material's kernel is; `sparkle`: a pixel shows the grooves of one texel. */
-export function grooveMap(from: Texture, even: boolean, sparkle: boolean): GrooveMap {
-    const { data: bytes, width, height } = bytesOf(from);
+export function grooveMap(image: GrooveImage, even: boolean, sparkle: boolean): GrooveMap {
+    const { bytes, width, height } = image;
     const greens = new Set<number>();
     for (let i = 1; i < bytes.length; i += 4) greens.add(bytes[i]);
     const gaps = greens.delete(0);
     const factors = [...greens].map((green) => (2 * green) / 255);
     const [smallest, largest] = factors.length > 0 ? [Math.min(...factors), Math.max(...factors)] : [1, 1];
-    const nearest = sparkle || from.magFilter === NearestFilter;
+    const nearest = sparkle || image.nearest;
     const levels: Level[] = [{ width, height, data: momentsOf(bytes, even, gaps, smallest) }];
     for (let last = levels[0]; !nearest && last.width * last.height > 1; levels.push(last)) last = halved(last);
-    from.updateMatrix();
-    const m = from.matrix.elements; // by columns
-    return {
-        moments: texture(levels, toHalf, nearest, from),
-        rest: texture(levels, (value) => toHalf(value - DataUtils.fromHalfFloat(toHalf(value))), nearest, from),
-        smallest,
-        largest,
-        gaps,
-        uv: from.channel === 0 ? "uv" : "uv1",
-        uvLinear: new Vector4(m[0], m[1], m[3], m[4]),
-        uvOffset: new Vector2(m[6], m[7]),
-        rotation: (u, v) => rotationAt({ bytes, width, height, nearest: from.magFilter === NearestFilter, like: from }, u, v),
-    };
+    const texture = (texel: (value: number) => number) =>
+        mipmapTexture(levels.map(({ width, height, data }) => ({ width, height, data: Uint16Array.from(data, texel) })), nearest, image.wraps);
+    return { moments: texture(toHalf), rest: texture((value) => toHalf(value - fromHalf(toHalf(value)))), smallest, largest, gaps };
 }

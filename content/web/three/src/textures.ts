@@ -1,7 +1,8 @@
 import {
-    ClampToEdgeWrapping, Data3DTexture, DataArrayTexture, DataTexture, FloatType, HalfFloatType, LinearFilter,
-    NearestFilter, RepeatWrapping, RGBAFormat, type Texture,
+    ClampToEdgeWrapping, Data3DTexture, DataArrayTexture, DataTexture, FloatType, HalfFloatType, LinearFilter, LinearMipmapLinearFilter,
+    MirroredRepeatWrapping, NearestFilter, RepeatWrapping, RGBAFormat, Vector2, Vector4, type BufferGeometry, type Texture,
 } from "three";
+import type { GrooveImage, Wrap } from "./groove_map.js";
 import type { Table } from "./tasks.js";
 
 function filtered<Kind extends Texture>(texture: Kind): Kind {
@@ -32,6 +33,54 @@ export function volumeTexture(table: Table, repeated: { s?: boolean; r?: boolean
     texture.wrapS = repeated.s ? RepeatWrapping : ClampToEdgeWrapping;
     texture.wrapR = repeated.r ? RepeatWrapping : ClampToEdgeWrapping;
     return texture;
+}
+
+const WRAPPINGS = { clamp: ClampToEdgeWrapping, repeat: RepeatWrapping, mirror: MirroredRepeatWrapping };
+
+/** Of halves, with its levels, the largest first. */
+export function mipmapTexture(levels: { width: number; height: number; data: Uint16Array<ArrayBuffer> }[], nearest: boolean, wraps: readonly [Wrap, Wrap]): Texture {
+    const [{ data, width, height }] = levels;
+    const texture = filtered(new DataTexture(data, width, height));
+    if (levels.length > 1) texture.mipmaps = levels as never;
+    [texture.wrapS, texture.wrapT] = wraps.map((wrap) => WRAPPINGS[wrap]);
+    texture.magFilter = nearest ? NearestFilter : LinearFilter;
+    texture.minFilter = nearest ? NearestFilter : LinearMipmapLinearFilter;
+    return texture;
+}
+
+/** RGBA bytes, the row at v = 0 first. */
+function bytesOf(texture: Texture): ArrayLike<number> {
+    const image = texture.image as { data?: ArrayLike<number>; width: number; height: number };
+    const { width, height } = image;
+    let { data } = image;
+    if (!data) {
+        const context = new OffscreenCanvas(width, height).getContext("2d", { willReadFrequently: true })!;
+        context.drawImage(image as never, 0, 0);
+        data = context.getImageData(0, 0, width, height).data;
+    }
+    if (data.length !== 4 * width * height) throw new Error("grooveTexture: expected a texture of RGBA bytes");
+    if (!texture.flipY) return data;
+    const flipped = new Uint8Array(data.length);
+    for (let row = 0; row < height; ++row)
+        for (let i = 0; i < 4 * width; ++i) flipped[4 * width * row + i] = data[4 * width * (height - 1 - row) + i];
+    return flipped;
+}
+
+export async function grooveImage(texture: Texture): Promise<GrooveImage> {
+    const { width, height } = texture.image as { width: number; height: number };
+    const wrap = (wrapping: number) => (["clamp", "repeat", "mirror"] as const).find((name) => WRAPPINGS[name] === wrapping)!;
+    texture.updateMatrix();
+    const m = texture.matrix.elements; // by columns
+    return {
+        bytes: bytesOf(texture), width, height, wraps: [wrap(texture.wrapS), wrap(texture.wrapT)], nearest: texture.magFilter === NearestFilter,
+        uv: texture.channel === 0 ? "uv" : "uv1", uvLinear: new Vector4(m[0], m[1], m[3], m[4]), uvOffset: new Vector2(m[6], m[7]),
+    };
+}
+
+/** Texture coordinates of a vertex. */
+export function coordinatesOf(geometry: BufferGeometry, uv: string): (vertex: number) => [number, number] {
+    const attribute = geometry.getAttribute(uv);
+    return (vertex) => (attribute ? [attribute.getX(vertex), attribute.getY(vertex)] : [0, 0]);
 }
 
 /** Vectors that a storage texture holds: its rows are the 2048 that every WebGL 2 has. */

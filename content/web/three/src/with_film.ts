@@ -1,7 +1,9 @@
-import { Vector4, type Material, type MeshPhysicalMaterial, type MeshPhysicalMaterialParameters, type Texture } from "three";
+import type { Material, MeshPhysicalMaterial, MeshPhysicalMaterialParameters } from "three";
+import { filmRows, filmSource, filmValues, type FilmFile, type FilmRows, type FilmValues } from "./film_table.js";
 import type { Rowland } from "./rowland.js";
 import type { FilmTable } from "./tasks.js";
-import { planeTexture } from "./textures.js";
+
+export type { FilmRows, FilmValues };
 
 export interface FilmParameters extends MeshPhysicalMaterialParameters {
     rowland?: Rowland;
@@ -13,30 +15,6 @@ export interface FilmParameters extends MeshPhysicalMaterialParameters {
      */
     film?: object;
 }
-
-export interface Layer {
-    readonly ior: number;
-    readonly thickness_nm: number;
-}
-
-/** Members of a film material file that the material follows. */
-export interface FilmFile {
-    readonly film: Layer | readonly Layer[];
-    readonly roughness?: number;
-    readonly base?: object;
-    readonly metal?: string;
-}
-
-/** What film_lookup.glsl reads. */
-export interface FilmValues {
-    readonly film_table: Texture;
-    readonly film_path: Vector4;
-    readonly film_axes: Vector4;
-    readonly film_rough: number; // 1 if the table is for the material's roughness
-}
-
-/** Which of its looks a table has: a line of texels, rows of roughnesses, or of path differences. */
-export type FilmRows = "FILM_LINE" | "FILM_ROUGHNESSES" | "FILM_PATHS";
 
 /** A class of physical materials: MeshPhysicalMaterial, or that of another renderer. TypeScript wants `any` of mixins. */
 type Physical = new (...parameters: any[]) => Material & Pick<MeshPhysicalMaterial,
@@ -82,24 +60,15 @@ export function withFilm<Base extends Physical>(base: Base) {
         }
 
         /** @internal */
-        async table({ film, roughness = 0, ...rest }: FilmFile): Promise<FilmTable> {
-            const layers = [film].flat();
-            const varies = this.iridescenceThicknessMap !== null;
-            if (varies && this.roughnessMap)
-                throw new Error("the film: iridescenceThicknessMap beside roughnessMap; expected one of them: a table varies one");
-            const { ior = 1.3, thickness_nm } = layers[0] ?? {};
-            const least = this.leastThickness_nm;
-            if (thickness_nm !== undefined) this.setThicknesses(varies ? least : thickness_nm, thickness_nm);
+        async table(file: FilmFile): Promise<FilmTable> {
+            const { ior = 1.3, thickness_nm } = [file.film].flat()[0] ?? {};
+            const least_nm = this.iridescenceThicknessMap === null ? undefined : this.leastThickness_nm;
+            const source = filmSource(file, { ior: this.ior, colour: this.color.toArray(), metalness: this.metalness, least_nm,
+                roughnessVaries: this.roughnessMap !== null });
+            if (thickness_nm !== undefined) this.setThicknesses(least_nm ?? thickness_nm, thickness_nm);
             this.iridescenceIOR = ior;
-            this.roughness = roughness;
-            const known = rest.base !== undefined || rest.metal !== undefined;
-            const named = known ? rest : { ...rest, base: { ior: this.ior } };
-            const range = varies ? [least, thickness_nm].sort((a, b) => a - b) : [-1, thickness_nm];
-            const outermost = { ...layers[0], thickness_nm: range[1] };
-            return this.rowland!.filmTable({
-                json: JSON.stringify({ film: [outermost, ...layers.slice(1)], roughness, ...named }),
-                thinnest_nm: range[0], smoothest: this.roughnessMap ? 0 : -1, base: known ? [-1, -1, -1] : this.normalReflectance,
-            });
+            this.roughness = file.roughness ?? 0;
+            return this.rowland!.filmTable(source);
         }
 
         /** @internal three 0.187 has two numbers in place of the pair. */
@@ -113,19 +82,12 @@ export function withFilm<Base extends Physical>(base: Base) {
             else this.iridescenceThicknessRange = [iridescenceThicknessMinimum, iridescenceThicknessMaximum];
         }
 
-        /** Of the layer beneath the film. */
-        get normalReflectance(): number[] {
-            const dielectric = ((this.ior - 1) / (this.ior + 1)) ** 2;
-            return this.color.toArray().map((metal) => dielectric + (metal - dielectric) * this.metalness);
-        }
-
         /** @internal */
-        take({ path, axes, byRoughness, error, table }: FilmTable): void {
+        take(table: FilmTable): void {
             this.filmValues?.film_table.dispose();
-            this.filmValues = { film_table: planeTexture(table, false), film_path: new Vector4(...path), film_axes: new Vector4(...axes),
-                film_rough: this.roughness > 0 ? 1 : 0 };
-            this.filmRows = byRoughness ? "FILM_ROUGHNESSES" : table.height === 1 ? "FILM_LINE" : "FILM_PATHS";
-            this.tableError = error;
+            this.filmValues = filmValues(table, this.roughness);
+            this.filmRows = filmRows(table);
+            this.tableError = table.error;
             this.filmChanged();
             this.needsUpdate = true;
             this.rowland!.onUpdate();

@@ -1,23 +1,11 @@
-// What films show under equal light from everywhere, or under a lamp that they mirror, relative to a perfect mirror; posted.
+// Posts what films show, by each of the renderers.
 import * as THREE from "three";
 import { WebGPURenderer } from "three/webgpu";
 import { FilmMaterial, Rowland } from "../dist/index.js";
 import { FilmNodeMaterial } from "../dist/webgpu.js";
+import { shown } from "./film_points.js";
 
 const post = (value) => fetch("/result", { method: "POST", body: JSON.stringify(value) });
-
-/** A pixel of a square that faces +z, seen from `view`. */
-async function pixel(renderer, scene, view, target) {
-    const camera = new THREE.PerspectiveCamera(0.1, 1, 0.1, 10);
-    camera.position.set(...view);
-    camera.lookAt(0, 0, 0);
-    renderer.setRenderTarget(target);
-    renderer.render(scene, camera);
-    let rgba = new Float32Array(4);
-    if (renderer.isWebGLRenderer) renderer.readRenderTargetPixels(target, 0, 0, 1, 1, rgba);
-    else rgba = await renderer.readRenderTargetPixelsAsync(target, 0, 0, 1, 1);
-    return [...rgba.subarray(0, 3)];
-}
 
 /** Renderers by name, each with its material; that on WebGPU only where the browser has it. */
 async function renderersOf() {
@@ -29,45 +17,6 @@ async function renderersOf() {
         all[name] = [renderer, FilmNodeMaterial];
     }
     return all;
-}
-
-/** A uniform sky, which each renderer filters for itself. */
-function white() {
-    const texture = new THREE.DataTexture(new Float32Array(4 * 64 * 32).fill(1), 64, 32, THREE.RGBAFormat, THREE.FloatType);
-    return Object.assign(texture, { mapping: THREE.EquirectangularReflectionMapping, needsUpdate: true });
-}
-
-async function shown([renderer, Material], rowland, { film, views, thicknesses, lamp }) {
-    const scene = new THREE.Scene();
-    const light = new THREE.DirectionalLight();
-    if (lamp) scene.add(light);
-    else scene.environment = white();
-    const target = new THREE.WebGLRenderTarget(1, 1, { type: THREE.FloatType });
-    const parameters = {};
-    if (thicknesses) {
-        parameters.iridescenceThicknessMap = new THREE.DataTexture(new Uint8Array([0, 0, 0, 255]), 1, 1);
-        parameters.iridescenceThicknessRange = thicknesses;
-    }
-    const material = new Material({ rowland, film, ...parameters });
-    const mirror = new THREE.MeshPhysicalMaterial({ color: 0xffffff, metalness: 1, roughness: film.roughness ?? 0 });
-    await material.ready;
-    const mesh = new THREE.Mesh(new THREE.PlaneGeometry(), material);
-    scene.add(mesh);
-    const results = [];
-    for (const { view, texel = 0 } of views) {
-        const map = material.iridescenceThicknessMap;
-        if (map) {
-            map.image.data[1] = texel;
-            map.needsUpdate = true;
-        }
-        light.position.set(-view[0], -view[1], view[2]);
-        mesh.material = mirror;
-        const whole = await pixel(renderer, scene, view, target);
-        mesh.material = material;
-        const own = await pixel(renderer, scene, view, target);
-        results.push(own.map((x, c) => x / whole[c]));
-    }
-    return results;
 }
 
 try {

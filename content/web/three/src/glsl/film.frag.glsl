@@ -1,9 +1,5 @@
-// Inserted after three's <lights_physical_pars_fragment>: the film's reflectance for three's Fresnel term, and what it
-// transmits for the layer beneath. PHYSICS (4.2), (5.1) of modules/thin_film.
-#include "engine/gpu/shaders/dialect.glsl"
-#include "modules/thin_film/shaders/film_lookup.glsl"
-uniform float film_rough;  // 1 if the table is for the material's roughness, whatever three adds to it
-
+// Inserted after three's <lights_physical_pars_fragment> and film_table.frag.glsl: the film's reflectance for three's
+// Fresnel term, and what it transmits for the layer beneath. PHYSICS (4.2), (5.1) of modules/thin_film.
 mat3x4 film_seen;      // M of the lobe that the view sees
 vec3 film_transmitted;  // fraction of white light
 

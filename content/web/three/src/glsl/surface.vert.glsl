@@ -44,7 +44,7 @@ void pass_grooves(vec3 given, vec4 tangent, mat3 linear, vec3 normal_in_view, in
     world_grating = probe_from_world * (groove_turn.x * g + groove_turn.y * h);
 #ifdef ROWLAND_GROOVE_UV
     groove_uv = ROWLAND_GROOVE_UV;
-    groove_hand = hand;
+    groove_hand = determinant(probe_from_world) < 0.0 ? -hand : hand;  // of a left-handed world
 #endif
 #ifdef ROWLAND_ARC
 #ifdef USE_BATCHING
