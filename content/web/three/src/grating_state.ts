@@ -110,9 +110,7 @@ export class GratingState {
         this.rowland = rowland;
         this.grating = grating;
         this.efficiencies = efficiencies;
-        this.ready = rowland.material(this.number, grating, efficiencies).then((tables) => {
-            if (!this.disposed) this.setKernel(tables);
-        });
+        this.ready = rowland.material(this.number, grating, efficiencies).then((tables) => this.take(tables, () => !this.disposed));
         const bake = ++this.bakes;
         this.solved = this.ready.then(() => this.solve(grating, () => bake === this.bakes));
         this.solved.catch((error: Error) => rowland.onError(error));
@@ -140,8 +138,15 @@ export class GratingState {
         const efficiencies = await this.rowland!.solve(relief, isCurrent);
         if (!efficiencies || !isCurrent()) return;
         this.efficiencies = efficiencies;
-        const tables = await this.rowland!.material(this.number, grating, efficiencies);
-        if (isCurrent()) this.setKernel(tables);
+        await this.take(await this.rowland!.material(this.number, grating, efficiencies), isCurrent);
+    }
+
+    /** Sets the kernel, with the groove texture's moments for it. */
+    private async take(tables: MaterialTables, isCurrent: () => boolean): Promise<void> {
+        const { grooveTexture, rowland, grating } = this;
+        const sparkle = (grating as { grooveTexture?: { sparkle?: boolean } }).grooveTexture?.sparkle ?? false;
+        const map = grooveTexture && (await grooveMap(grooveTexture, tables.facts[FACT.even] === 1, sparkle, rowland!));
+        if (isCurrent()) this.setKernel(tables, map);
     }
 
     private put(name: string, value: unknown): void {
@@ -193,7 +198,7 @@ export class GratingState {
         this.option(name, on ? "1" : undefined);
     }
 
-    private setKernel(tables: MaterialTables): void {
+    private setKernel(tables: MaterialTables, map?: GrooveMap): void {
         const { facts, kernel, views, kernelUniforms } = tables;
         const vector = (at: number) => new Vector3().fromArray(facts, at);
         const matrix = (at: number) => new Matrix3().fromArray(facts, at);
@@ -225,15 +230,14 @@ export class GratingState {
         this.flag("COVER", facts[FACT.ior] > 0);
         this.flag("ZERO_ORDER", facts.subarray(FACT.zeroOrder, FACT.zeroOrder + 9).some((x) => x !== 0));
         for (const [name, value] of Object.entries(this.lightValues(new Float32Array()))) if (!this.values[name]) this.put(name, value);
-        if (this.grooveTexture) this.setGrooveMap(this.grooveTexture, facts[FACT.even] === 1);
+        if (map) this.setGrooveMap(map, facts[FACT.even] === 1);
         if (!this.rowland!.hasLight) this.flag("ROWLAND", true); // else with the first map or table
         this.follow();
         if (this.options.has("ROWLAND")) this.rowland!.onUpdate();
     }
 
-    private setGrooveMap(texture: Texture, even: boolean): void {
-        const sparkle = (this.grating as { grooveTexture?: { sparkle?: boolean } }).grooveTexture?.sparkle ?? false;
-        const map = (this.grooveMap = grooveMap(texture, even, sparkle));
+    private setGrooveMap(map: GrooveMap, even: boolean): void {
+        this.grooveMap = map;
         if (this.pitches && !this.flatLobe && this.representation !== "direct")
             throw new Error(`grooveTexture: pitches of ${map.smallest.toPrecision(3)} to ${map.largest.toPrecision(3)} times pitch_nm ` +
                 'with a groove_lobe that is not flat; expected the flat groove_lobe or the representation "direct"');

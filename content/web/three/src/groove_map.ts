@@ -1,8 +1,8 @@
 import {
-    ClampToEdgeWrapping, DataTexture, DataUtils, HalfFloatType, LinearFilter, LinearMipmapLinearFilter, MirroredRepeatWrapping,
+    ClampToEdgeWrapping, DataTexture, HalfFloatType, LinearFilter, LinearMipmapLinearFilter, MirroredRepeatWrapping,
     NearestFilter, RGBAFormat, Vector2, Vector4, type BufferGeometry, type Texture, type Wrapping,
 } from "three";
-import { toHalf } from "./half.js";
+import type { Rowland } from "./rowland.js";
 
 /**
  * What grooves.glsl reads of a groove texture (R: rotation / π, G: half the pitch over the material's; 0: no grating):
@@ -23,12 +23,6 @@ export interface GrooveMap {
     rotation(u: number, v: number): number;
 }
 
-interface Level {
-    width: number;
-    height: number;
-    data: Float32Array; // RGBA
-}
-
 /** RGBA bytes, the row at v = 0 first. */
 function bytesOf(texture: Texture): { data: ArrayLike<number>; width: number; height: number } {
     const image = texture.image as { data?: Uint8Array; width: number; height: number };
@@ -47,52 +41,9 @@ function bytesOf(texture: Texture): { data: ArrayLike<number>; width: number; he
     return { data: flipped, width, height };
 }
 
-/** A level of half the width and height, rounded down: linear between the centres of texels. */
-function halved({ width, height, data }: Level): Level {
-    const to = { width: Math.max(1, width >> 1), height: Math.max(1, height >> 1) };
-    const half = new Float32Array(4 * to.width * to.height);
-    const between = (i: number, count: number, from: number) => {
-        const at = Math.max(((i + 0.5) * from) / count - 0.5, 0);
-        const low = Math.floor(at);
-        return { low, high: Math.min(low + 1, from - 1), weight: at - low };
-    };
-    for (let row = 0; row < to.height; ++row) {
-        const y = between(row, to.height, height);
-        for (let column = 0; column < to.width; ++column) {
-            const x = between(column, to.width, width);
-            for (let c = 0; c < 4; ++c) {
-                const inRow = (v: number) => {
-                    const left = data[4 * (v * width + x.low) + c];
-                    return left + x.weight * (data[4 * (v * width + x.high) + c] - left);
-                };
-                const low = inRow(y.low);
-                half[4 * (row * to.width + column) + c] = low + y.weight * (inRow(y.high) - low);
-            }
-        }
-    }
-    return { ...to, data: half };
-}
-
-function momentsOf(bytes: ArrayLike<number>, even: boolean, gaps: boolean, smallest: number): Float32Array {
-    const moments = new Float32Array(bytes.length);
-    for (let i = 0; i < bytes.length; i += 4) {
-        const [red, green] = [bytes[i], bytes[i + 1]];
-        moments.fill(0.5, i, i + 2);
-        if (green === 0) continue;
-        const angle = ((even ? 2 : 1) * Math.PI * red) / 255;
-        const inverse = smallest / ((2 * green) / 255);
-        moments[i] += 0.5 * Math.cos(angle);
-        moments[i + 1] += 0.5 * Math.sin(angle);
-        moments[i + 2] = inverse;
-        moments[i + 3] = gaps ? 1 : inverse * inverse;
-    }
-    return moments;
-}
-
-function texture(levels: Level[], texel: (value: number) => number, nearest: boolean, like: Texture): DataTexture {
-    const mipmaps = levels.map(({ width, height, data }) => ({ width, height, data: Uint16Array.from(data, texel) }));
-    const result = new DataTexture(mipmaps[0].data, mipmaps[0].width, mipmaps[0].height, RGBAFormat, HalfFloatType);
-    if (levels.length > 1) result.mipmaps = mipmaps as never;
+function texture(mipmaps: { width: number; height: number; data: Uint16Array }[], nearest: boolean, like: Texture): DataTexture {
+    const result = new DataTexture(mipmaps[0].data as Uint16Array<ArrayBuffer>, mipmaps[0].width, mipmaps[0].height, RGBAFormat, HalfFloatType);
+    if (mipmaps.length > 1) result.mipmaps = mipmaps as never;
     result.wrapS = like.wrapS;
     result.wrapT = like.wrapT;
     result.magFilter = nearest ? NearestFilter : LinearFilter;
@@ -134,21 +85,15 @@ export function rotationsOf({ rotation }: GrooveMap, texture: Texture, geometry:
 }
 
 /** `even`: whether the material's kernel is; `sparkle`: a pixel shows the grooves of one texel. */
-export function grooveMap(from: Texture, even: boolean, sparkle: boolean): GrooveMap {
+export async function grooveMap(from: Texture, even: boolean, sparkle: boolean, rowland: Rowland): Promise<GrooveMap> {
     const { data: bytes, width, height } = bytesOf(from);
-    const greens = new Set<number>();
-    for (let i = 1; i < bytes.length; i += 4) greens.add(bytes[i]);
-    const gaps = greens.delete(0);
-    const factors = [...greens].map((green) => (2 * green) / 255);
-    const [smallest, largest] = factors.length > 0 ? [Math.min(...factors), Math.max(...factors)] : [1, 1];
     const nearest = sparkle || from.magFilter === NearestFilter;
-    const levels: Level[] = [{ width, height, data: momentsOf(bytes, even, gaps, smallest) }];
-    for (let last = levels[0]; !nearest && last.width * last.height > 1; levels.push(last)) last = halved(last);
+    const { smallest, largest, gaps, levels } = await rowland.grooveMoments(bytes, width, height, even, !nearest);
     from.updateMatrix();
     const m = from.matrix.elements; // by columns
     return {
-        moments: texture(levels, toHalf, nearest, from),
-        rest: texture(levels, (value) => toHalf(value - DataUtils.fromHalfFloat(toHalf(value))), nearest, from),
+        moments: texture(levels.map(({ moments, ...size }) => ({ ...size, data: moments })), nearest, from),
+        rest: texture(levels.map(({ rest, ...size }) => ({ ...size, data: rest })), nearest, from),
         smallest,
         largest,
         gaps,
