@@ -59,7 +59,7 @@ const builtIn = { BUILT_IN_KEY_LIGHTS: await builtInKeyLights(), BUILT_IN_EFFICI
 buildSync({ ...options, entryPoints: [here + "page.ts"], define: builtIn, outfile: out + "/page.js" });
 buildSync({ ...options, entryPoints: [from + "/dist/worker.js"], outfile: out + "/worker.js" });
 buildSync({ ...options, entryPoints: [here + "environment.ts"], outfile: out + "/environment.js" });
-for (const file of ["index.html", "page.css", "cabinet.glb"]) cpSync(here + file, `${out}/${file}`);
+for (const file of ["index.html", "page.css", "cabinet.glb", "cabinet.webp"]) cpSync(here + file, `${out}/${file}`);
 cpSync(here + "../../scenes/films.glb", `${out}/films.glb`);
 for (const file of readdirSync(from + "/dist").filter((name) => name.endsWith(".wasm"))) cpSync(`${from}/dist/${file}`, `${out}/${file}`);
 for (const file of ["draco_decoder.wasm", "draco_wasm_wrapper.js"])

@@ -32,10 +32,23 @@ try {
 }
 const loading = [cabinet, samples, films][wanted.scene](rowland, wanted);
 
+/** Without WebGL 2 a picture is shown, and what to do. */
+function rendererOf(canvas: HTMLCanvasElement): WebGLRenderer {
+    try {
+        return new WebGLRenderer({ canvas, antialias: true });
+    } catch (cause) {
+        rowland.dispose();
+        element("panel").inert = true;
+        const alt = "A record, a CD, a DVD, a foil card, a grating rule and a beetle on an oak table, with the colours of their gratings";
+        canvas.replaceWith(Object.assign(new Image(), { id: "view", src: "cabinet.webp", alt }));
+        throw new Error("This browser has no WebGL 2, so this is a still picture: update the browser, or turn its hardware acceleration on.", { cause });
+    }
+}
+
 const canvas = element<HTMLCanvasElement>("view");
 const scene = new Scene();
 const camera = new PerspectiveCamera(35, 1, 0.01, 40);
-const renderer = new WebGLRenderer({ canvas, antialias: true });
+const renderer = rendererOf(canvas);
 renderer.debug.checkShaderErrors = false; // asks the GPU's process, and waits
 renderer.toneMapping = ACESFilmicToneMapping;
 const controls = new OrbitControls(camera, canvas);
@@ -240,11 +253,15 @@ lights.addEventListener("change", () => {
 addEventListener("dragover", (event) => event.preventDefault());
 addEventListener("drop", (event) => {
     event.preventDefault();
-    const file = event.dataTransfer?.files[0];
+    give(event.dataTransfer?.files[0]);
+});
+const panorama = element<HTMLInputElement>("panorama");
+panorama.addEventListener("change", () => give(panorama.files?.[0]));
+function give(file?: File): void {
     if (!file) return;
     message.textContent = "";
-    lightOf(file).then((panorama) => light(panorama)).catch(report);
-});
+    lightOf(file).then((texels) => light(texels)).catch(report);
+}
 
 const ray = new Raycaster();
 /** What the point (x, y) of the picture shows, in pixels from the left and from below. */
@@ -265,19 +282,34 @@ function pieceOf(object: Object3D | null): Piece | undefined {
 /** The pixel at a pointer, and what its middle shows. */
 function under(event: PointerEvent) {
     const box = canvas.getBoundingClientRect();
-    const x = Math.floor(((event.clientX - box.left) * canvas.width) / box.width);
-    const y = Math.floor(((event.clientY - box.top) * canvas.height) / box.height);
+    return pixelAt((event.clientX - box.left) / box.width, (event.clientY - box.top) / box.height);
+}
+/** From 0 to 1 from the left and from above. */
+function pixelAt(right: number, down: number) {
+    const [x, y] = [Math.floor(right * canvas.width), Math.floor(down * canvas.height)];
     return { x, y, hit: seenAt(x + 0.5, canvas.height - y - 0.5) };
+}
+/** A pixel that shows the chosen sample, if one of a few of its vertices does. */
+function chosenPixel() {
+    const mesh = stage.pieces[chosen].meshes[0];
+    const vertices = mesh.geometry.getAttribute("position");
+    let pixel = pixelAt(0.5, 0.5);
+    for (let part = 0.05; part < 1; part += 0.1) {
+        const at = new Vector3().fromBufferAttribute(vertices, Math.floor(part * vertices.count)).applyMatrix4(mesh.matrixWorld).project(camera);
+        pixel = pixelAt((at.x + 1) / 2, (1 - at.y) / 2);
+        if (pixel.hit && stage.pieces[chosen].meshes.includes(pixel.hit.object as never)) break;
+    }
+    return pixel;
 }
 
 // The error of the pixel that the pointer rests on.
 const comparer = new PixelComparer(renderer, scene, camera, lamp);
 let resting = 0;
 let compared = 0;
-function compareAfter(event: PointerEvent, milliseconds: number): void {
+function compareAfter(pixel: () => { x: number; y: number; hit?: Intersection<Mesh> }, milliseconds: number): void {
     clearTimeout(resting);
     resting = window.setTimeout(async () => {
-        const { x, y, hit } = under(event);
+        const { x, y, hit } = pixel();
         if (!hit || !("grating" in hit.object.material) || rowland.lightVersion === 0) return;
         if (!hasReference(hit.object)) {
             element("pixel").textContent = "No error of this pixel: its grooves are a texture's, and vary within it.";
@@ -315,7 +347,7 @@ canvas.addEventListener("pointerdown", (event) => {
 }, { capture: true });
 canvas.addEventListener("pointermove", (event) => {
     const before = fingers.get(event.pointerId);
-    if (event.buttons === 0) compareAfter(event, 400);
+    if (event.buttons === 0) compareAfter(() => under(event), 400);
     else clearTimeout(resting);
     if (!held || !before) return;
     if (fingers.size === 1) {
@@ -334,7 +366,7 @@ const release = (event: PointerEvent) => {
     fingers.delete(event.pointerId);
     if (down.size > 0) return;
     referenceShown.checked ? draw() : frames.sharpen();
-    if (event.pointerType === "touch" && held) compareAfter(event, 0);
+    if (event.pointerType === "touch" && held) compareAfter(() => under(event), 0);
     held = undefined;
     controls.enabled = true;
 };
@@ -350,6 +382,7 @@ const KEYS: Record<string, () => unknown> = {
     "=": () => zoom(0.9),
     "-": () => zoom(1 / 0.9),
     q: () => stage.pieces[chosen] && turn(stage.pieces[chosen], -0.05),
+    Enter: () => stage.pieces[chosen] && compareAfter(chosenPixel, 0),
     e: () => stage.pieces[chosen] && turn(stage.pieces[chosen], 0.05),
 };
 function orbit(around: number, down: number): void {
@@ -377,8 +410,9 @@ canvas.addEventListener("webglcontextrestored", () => {
 });
 
 function resize(): void {
-    renderer.setSize(innerWidth, innerHeight, false);
-    camera.aspect = innerWidth / innerHeight;
+    const { clientWidth, clientHeight } = canvas;
+    renderer.setSize(clientWidth, clientHeight, false);
+    camera.aspect = clientWidth / clientHeight;
     // On a narrow screen as much from left to right as on one of 4 : 3.
     camera.fov = (360 / Math.PI) * Math.atan(Math.tan((17.5 * Math.PI) / 180) * Math.max(1, 4 / 3 / camera.aspect));
     camera.updateProjectionMatrix();

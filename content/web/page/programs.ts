@@ -4,6 +4,8 @@ import { gpuDone } from "./frames.js";
 
 /** A task that takes longer is continued in another, as events wait for its end. */
 const TASK_MS = 10;
+/** Texels that the browser takes before it waits for the GPU's process. */
+const UPLOAD = 2 ** 18;
 
 /** Compiles the programs of a scene beside the page, and uploads its textures: a frame would wait for them. */
 export class Programs {
@@ -45,11 +47,16 @@ export class Programs {
             program.getAttributes();
             await yielded();
         }
+        let texels = 0;
         for (const texture of texturesOf(meshes.keys())) {
             if (this.uploaded.get(texture) === texture.version) continue;
             this.uploaded.set(texture, texture.version);
             renderer.initTexture(texture);
+            const { width, height, depth = 1 } = texture.image as { width: number; height: number; depth?: number };
+            texels += width * height * depth;
+            if (texels < UPLOAD) continue;
             await gpuDone(renderer);
+            texels = 0;
         }
     }
 }
