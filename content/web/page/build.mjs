@@ -26,10 +26,9 @@ const tasks = new Tasks(async (name) => readFileSync(`${from}/dist/${name}.wasm`
 /** So that nothing is fitted when the page opens. */
 async function builtInKeyLights() {
     const { builtInLight, LIGHT_NAMES } = await imported("lights.ts", { BUILT_IN_KEY_LIGHTS: "{}" });
-    const { texelsOf } = await import(pathToFileURL(from + "/dist/probe.js"));
     const lights = {};
     for (const name of LIGHT_NAMES) {
-        const { texels, width, height } = texelsOf(builtInLight(name));
+        const { texels, width, height } = builtInLight(name);
         const probe = new Float32Array(2 + texels.length);
         probe.set([width, height]);
         probe.set(texels, 2);
@@ -59,7 +58,8 @@ async function builtInEfficiencies() {
 const builtIn = { BUILT_IN_KEY_LIGHTS: await builtInKeyLights(), BUILT_IN_EFFICIENCIES: await builtInEfficiencies() };
 buildSync({ ...options, entryPoints: [here + "page.ts"], define: builtIn, outfile: out + "/page.js" });
 buildSync({ ...options, entryPoints: [from + "/dist/worker.js"], outfile: out + "/worker.js" });
-for (const file of ["index.html", "page.css", "cabinet.glb"]) cpSync(here + file, `${out}/${file}`);
+buildSync({ ...options, entryPoints: [here + "environment.ts"], outfile: out + "/environment.js" });
+for (const file of ["index.html", "page.css", "cabinet.glb", "cabinet.webp"]) cpSync(here + file, `${out}/${file}`);
 cpSync(here + "../../scenes/films.glb", `${out}/films.glb`);
 for (const file of readdirSync(from + "/dist").filter((name) => name.endsWith(".wasm"))) cpSync(`${from}/dist/${file}`, `${out}/${file}`);
 for (const file of ["draco_decoder.wasm", "draco_wasm_wrapper.js"])

@@ -3,9 +3,25 @@ import type { WebGLRenderer } from "three";
 /** A frame that takes longer is drawn at half the resolution while more are to come. */
 const SLOW_MS = 100;
 
+/** Resolves when the GPU has done what it was asked for. To ask it for a result before blocks the page. */
+export function gpuDone(renderer: WebGLRenderer): Promise<void> {
+    const gl = renderer.getContext() as WebGL2RenderingContext;
+    const fence = gl.fenceSync(gl.SYNC_GPU_COMMANDS_COMPLETE, 0);
+    gl.flush();
+    return new Promise((resolve) => {
+        const poll = () => {
+            if (fence && gl.getSyncParameter(fence, gl.SYNC_STATUS) === gl.UNSIGNALED) setTimeout(poll, 1);
+            else resolve();
+        };
+        setTimeout(poll);
+    });
+}
+
 export interface Picture {
+    /** Resolves when render() would wait for nothing; the page goes on meanwhile. */
+    prepare(): Promise<void>;
     render(): void;
-    /** The GPU has drawn what render() asked for, and no frame waits. */
+    /** The GPU has drawn what render() asked for. */
     drawn(): void;
     /** Whether more frames are to come. */
     changing(): boolean;
@@ -28,7 +44,7 @@ export class Frames {
         this.again = this.drawing;
         if (this.drawing) return;
         this.drawing = true;
-        requestAnimationFrame(() => this.draw());
+        requestAnimationFrame(() => void this.draw());
     }
 
     /** Asks for the frame that a coarse one stood for, when all has changed that will. */
@@ -36,27 +52,24 @@ export class Frames {
         if (this.coarse && !this.picture.changing()) this.ask();
     }
 
-    private draw(): void {
-        this.again = false;
+    private async draw(): Promise<void> {
+        do {
+            this.again = false;
+            await this.picture.prepare();
+        } while (this.again);
         this.coarse = this.slow && this.picture.changing();
         const ratio = Math.min(devicePixelRatio, 2) * (this.coarse ? 0.5 : 1);
         if (ratio !== this.renderer.getPixelRatio()) this.renderer.setPixelRatio(ratio);
         const begun = performance.now();
-        const gl = this.renderer.getContext() as WebGL2RenderingContext;
-        if (!gl.isContextLost()) this.picture.render();
-        const fence = gl.fenceSync(gl.SYNC_GPU_COMMANDS_COMPLETE, 0);
-        gl.flush();
-        const poll = () => {
-            if (fence && gl.getSyncParameter(fence, gl.SYNC_STATUS) === gl.UNSIGNALED) setTimeout(poll, 1);
-            else this.finish(performance.now() - begun);
-        };
-        setTimeout(poll);
+        if (!this.renderer.getContext().isContextLost()) this.picture.render();
+        await gpuDone(this.renderer);
+        this.finish(performance.now() - begun);
     }
 
     private finish(milliseconds: number): void {
         this.drawing = false;
         this.slow = milliseconds > (this.coarse ? SLOW_MS / 4 : SLOW_MS);
-        if (this.again) return this.ask();
+        if (this.again) this.ask();
         this.picture.drawn();
     }
 }

@@ -1,8 +1,7 @@
-import {
-    DataTexture, DataUtils, EquirectangularReflectionMapping, FloatType, HalfFloatType, LinearFilter, RGBAFormat, type Texture, type WebGLRenderer,
-} from "three";
+import { FloatType } from "three";
 import { EXRLoader } from "three/examples/jsm/loaders/EXRLoader.js";
 import { HDRLoader } from "three/examples/jsm/loaders/HDRLoader.js";
+import type { Panorama } from "@rowland/three";
 
 /** A lamp on the sphere: its direction and size in degrees, its radiance. */
 interface Box {
@@ -41,33 +40,30 @@ declare const BUILT_IN_KEY_LIGHTS: Record<string, number[]>;
 
 export const keyLightsOf = (name: string) => Float32Array.from(BUILT_IN_KEY_LIGHTS[name]);
 
-/** An equirectangular texture, as three's loaders give: centre −Z, its last row on top. */
-export function builtInLight(name: string, width = 512): DataTexture {
+export function builtInLight(name: string, width = 512): Panorama {
     const height = width / 2;
     const { top, bottom, boxes } = LIGHTS[name];
-    const data = new Float32Array(4 * width * height);
-    for (let row = 0; row < height; ++row)
+    const texels = new Float32Array(3 * width * height);
+    for (let row = 0; row < height; ++row) {
+        const up = 180 * (0.5 - (row + 0.5) / height);
+        const mix = Math.min(Math.max(0.5 + up / 30, 0), 1);
+        const inHeight = boxes.filter((box) => Math.abs(up - box.height) < box.tall / 2);
         for (let column = 0; column < width; ++column) {
-            const up = 180 * ((row + 0.5) / height - 0.5);
             const around = 360 * ((column + 0.5) / width - 0.5);
-            const mix = Math.min(Math.max(0.5 + up / 30, 0), 1);
-            const rgb = top.map((x, c) => bottom[c] + mix * (x - bottom[c]));
-            for (const box of boxes) {
-                const turned = ((around - box.azimuth + 540) % 360) - 180;
-                const inside = Math.abs(turned) * Math.cos((up * Math.PI) / 180) < box.width / 2 && Math.abs(up - box.height) < box.tall / 2;
-                if (inside) box.radiance.forEach((x, c) => (rgb[c] += x));
+            const at = 3 * (row * width + column);
+            for (let c = 0; c < 3; ++c) texels[at + c] = bottom[c] + mix * (top[c] - bottom[c]);
+            for (const { azimuth, width: wide, radiance } of inHeight) {
+                const turned = ((around - azimuth + 540) % 360) - 180;
+                if (Math.abs(turned) * Math.cos((up * Math.PI) / 180) >= wide / 2) continue;
+                for (let c = 0; c < 3; ++c) texels[at + c] += radiance[c];
             }
-            data.set([...rgb, 1], 4 * (row * width + column));
         }
-    const texture = new DataTexture(data, width, height, RGBAFormat, FloatType);
-    texture.mapping = EquirectangularReflectionMapping;
-    texture.minFilter = texture.magFilter = LinearFilter;
-    texture.needsUpdate = true;
-    return texture;
+    }
+    return { texels, width, height };
 }
 
 /** A panorama that the user gives. */
-export async function lightOf(file: File): Promise<Texture> {
+export async function lightOf(file: File): Promise<Panorama> {
     const extension = file.name.slice(file.name.lastIndexOf(".")).toLowerCase();
     if (extension !== ".hdr" && extension !== ".exr") throw new Error(`${file.name}: expected a panorama, .hdr or .exr`);
     const loader = extension === ".exr" ? new EXRLoader() : new HDRLoader();
@@ -81,23 +77,11 @@ export async function lightOf(file: File): Promise<Texture> {
     const { data, width, height } = image ?? {};
     if (!data || !width || !height || data.length !== 4 * width * height)
         throw new Error(`${file.name}: no picture; expected a Radiance HDR or OpenEXR panorama of colours`);
-    const texture = new DataTexture(data as Float32Array<ArrayBuffer>, width, height, RGBAFormat, FloatType);
-    texture.flipY = extension === ".hdr"; // as three's loaders give them
-    texture.mapping = EquirectangularReflectionMapping;
-    texture.minFilter = texture.magFilter = LinearFilter;
-    texture.needsUpdate = true;
-    return texture;
-}
-
-/** Halves are filtered on every GPU; floats are not. */
-export function filterable(texture: Texture, renderer: WebGLRenderer): Texture {
-    const image = texture.image as { data: Float32Array; width: number; height: number };
-    if (renderer.extensions.has("OES_texture_float_linear") || !(image.data instanceof Float32Array)) return texture;
-    const data = Uint16Array.from(image.data, (x) => DataUtils.toHalfFloat(Math.min(x, 65504)));
-    const halves = new DataTexture(data, image.width, image.height, RGBAFormat, HalfFloatType);
-    halves.mapping = texture.mapping;
-    halves.flipY = texture.flipY;
-    halves.minFilter = halves.magFilter = LinearFilter;
-    halves.needsUpdate = true;
-    return halves;
+    const texels = new Float32Array(3 * width * height);
+    for (let row = 0; row < height; ++row) {
+        const from = extension === ".hdr" ? row : height - 1 - row; // three's EXRLoader begins at the bottom
+        for (let column = 0; column < width; ++column)
+            for (let c = 0; c < 3; ++c) texels[3 * (row * width + column) + c] = data[4 * (from * width + column) + c];
+    }
+    return { texels, width, height };
 }

@@ -1,14 +1,16 @@
 import {
-    ACESFilmicToneMapping, Color, DirectionalLight, Group, PerspectiveCamera, PMREMGenerator, Raycaster, Scene, Vector2, Vector3,
-    WebGLRenderer, type Intersection, type Material, type Mesh, type Object3D, type Texture,
+    ACESFilmicToneMapping, Color, DirectionalLight, Group, PerspectiveCamera, Raycaster, Scene, Vector2, Vector3, WebGLRenderer,
+    type Intersection, type Material, type Mesh, type Object3D, type Texture,
 } from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
-import { Rowland } from "@rowland/three";
-import { builtInLight, filterable, keyLightsOf, LIGHT_NAMES, lightOf } from "./lights.js";
+import { Rowland, type Panorama } from "@rowland/three";
+import { builtInLight, keyLightsOf, LIGHT_NAMES, lightOf } from "./lights.js";
 import { addressOf, SCENE_NAMES, settingsOf, type Settings } from "./address.js";
 import { Frames } from "./frames.js";
 import { PixelComparer } from "./pixel.js";
+import { Programs } from "./programs.js";
 import { ReferenceView } from "./reference_view.js";
+import { Reflections } from "./reflections.js";
 import { numberAt, slidersOf, withNumber } from "./samples.js";
 import { cabinet, films, hasReference, materialsOf, Rest, samples, type Piece, type Stage } from "./stage.js";
 
@@ -18,26 +20,52 @@ const report = (error: unknown) => (message.textContent = (error as Error).messa
 addEventListener("error", (event) => report(event.error ?? event.message));
 addEventListener("unhandledrejection", (event) => report(event.reason));
 
+// Workers start, and files come, while the graphics context is made.
+const rowland = new Rowland();
+rowland.onError = report;
+const reflections = new Reflections();
+let wanted: Settings = { scene: 0, light: 0 };
+try {
+    wanted = settingsOf(location.hash);
+} catch (error) {
+    report(error);
+}
+const loading = [cabinet, samples, films][wanted.scene](rowland, wanted);
+
+/** Without WebGL 2 a picture is shown, and what to do. */
+function rendererOf(canvas: HTMLCanvasElement): WebGLRenderer {
+    try {
+        return new WebGLRenderer({ canvas, antialias: true });
+    } catch (cause) {
+        rowland.dispose();
+        element("panel").inert = true;
+        const alt = "A record, a CD, a DVD, a foil card, a grating rule and a beetle on an oak table, with the colours of their gratings";
+        canvas.replaceWith(Object.assign(new Image(), { id: "view", src: "cabinet.webp", alt }));
+        throw new Error("This browser has no WebGL 2, so this is a still picture: update the browser, or turn its hardware acceleration on.", { cause });
+    }
+}
+
 const canvas = element<HTMLCanvasElement>("view");
 const scene = new Scene();
 const camera = new PerspectiveCamera(35, 1, 0.01, 40);
-const renderer = new WebGLRenderer({ canvas, antialias: true });
+const renderer = rendererOf(canvas);
+renderer.debug.checkShaderErrors = false; // asks the GPU's process, and waits
 renderer.toneMapping = ACESFilmicToneMapping;
 const controls = new OrbitControls(camera, canvas);
 controls.maxPolarAngle = 0.49 * Math.PI;
 
-const rowland = new Rowland();
-rowland.onError = report;
-
 /** Until it is loaded, nothing. */
 let stage: Stage = { objects: new Group(), pieces: [], eye: new Vector3(0, 0.3, 0.5), target: new Vector3(), nearest: 0.1, farthest: 3 };
 let loaded = false;
+let environment: Texture | undefined;
 const turns = new Map<Piece, number>();
 
 const data = document.documentElement.dataset;
 let frameCount = 0;
 const litMaterials = () => stage.pieces.flatMap(materialsOf).filter(({ lit }) => lit).length;
+const programs = new Programs(renderer, scene, camera);
 const frames = new Frames(renderer, {
+    prepare: () => programs.compile(),
     render() {
         renderer.render(scene, camera);
         if (referenceShown.checked) reference.draw();
@@ -52,7 +80,7 @@ const frames = new Frames(renderer, {
     },
     changing: () => lightPending || down.size > 0 || (rowland.busy && !referenceShown.checked),
 });
-const redraw = () => loaded && frames.ask();
+const redraw = () => loaded && environment && frames.ask();
 /** When neither the GPU nor a worker has anything left: what the picture still lacks. */
 function rest(): void {
     if (!loaded || !frames.idle) return;
@@ -80,19 +108,15 @@ function draw(): void {
     if (!referenceShown.checked || rowland.lightVersion === 0) return;
     restarting = window.setTimeout(() => reference.start(hitAt, camera), 400);
 }
-rowland.onUpdate = draw;
+rowland.onUpdate = () => {
+    programs.changed();
+    draw();
+};
 controls.addEventListener("change", draw);
 
 const lamp = new DirectionalLight(0xffffff, 0);
 lamp.position.set(-0.4, 1, 0.5);
 scene.add(lamp);
-
-let wanted: Settings = { scene: 0, light: 0 };
-try {
-    wanted = settingsOf(location.hash);
-} catch (error) {
-    report(error);
-}
 
 // The panel.
 const sample = element<HTMLSelectElement>("sample");
@@ -182,29 +206,30 @@ referenceShown.addEventListener("change", () => {
     others.show(on);
     lamp.visible = !on;
     scene.background = on ? new Color(0) : environment ?? null;
-    draw();
+    rowland.onUpdate();
 });
 bind("line", (value) => (reference.line = value), redraw);
 
 // Light.
-let environment: Texture | undefined;
 /** What the light still lacks: asked for when a picture shows the whole of it. */
 let takeKeyLights = () => {};
 let lightPending = true;
+let lightsAsked = 0;
 /** `keys`: the light's, if they are known. */
-async function light(texture: Texture, keys?: Float32Array): Promise<void> {
+async function light(panorama: Panorama, keys?: Float32Array): Promise<void> {
+    const number = ++lightsAsked;
     takeKeyLights = () => {};
     lightPending = true;
     data.busy = "true";
-    const baked = rowland.setProbe(texture, { keyLights: "later" }); // beside what follows
-    const pmrem = new PMREMGenerator(renderer);
+    const reflected = reflections.of(panorama);
+    const baked = rowland.setProbe(panorama, { keyLights: "later" }); // takes the texels
+    const next = await reflected;
+    if (number !== lightsAsked) return;
     environment?.dispose();
-    environment = pmrem.fromEquirectangular(filterable(texture, renderer)).texture;
-    pmrem.dispose();
-    scene.environment = environment;
+    scene.environment = environment = next;
     if (!referenceShown.checked) scene.background = environment;
     scene.backgroundBlurriness = 0.3;
-    draw();
+    rowland.onUpdate();
     await baked;
     takeKeyLights = () => {
         takeKeyLights = () => {};
@@ -215,10 +240,8 @@ async function light(texture: Texture, keys?: Float32Array): Promise<void> {
     };
     rest();
 }
-const showBuiltIn = (index: number) => light((shownLight = builtInLight(LIGHT_NAMES[index])), (shownKeys = keyLightsOf(LIGHT_NAMES[index])));
+const showBuiltIn = (index: number) => light(builtInLight(LIGHT_NAMES[index]), keyLightsOf(LIGHT_NAMES[index]));
 
-let shownLight: Texture;
-let shownKeys: Float32Array | undefined;
 lights.append(...LIGHT_NAMES.map((name) => new Option(name)));
 lights.selectedIndex = wanted.light;
 lights.addEventListener("change", () => {
@@ -230,11 +253,15 @@ lights.addEventListener("change", () => {
 addEventListener("dragover", (event) => event.preventDefault());
 addEventListener("drop", (event) => {
     event.preventDefault();
-    const file = event.dataTransfer?.files[0];
+    give(event.dataTransfer?.files[0]);
+});
+const panorama = element<HTMLInputElement>("panorama");
+panorama.addEventListener("change", () => give(panorama.files?.[0]));
+function give(file?: File): void {
     if (!file) return;
     message.textContent = "";
-    lightOf(file).then((texture) => light((shownLight = texture), (shownKeys = undefined))).catch(report);
-});
+    lightOf(file).then((texels) => light(texels)).catch(report);
+}
 
 const ray = new Raycaster();
 /** What the point (x, y) of the picture shows, in pixels from the left and from below. */
@@ -255,19 +282,34 @@ function pieceOf(object: Object3D | null): Piece | undefined {
 /** The pixel at a pointer, and what its middle shows. */
 function under(event: PointerEvent) {
     const box = canvas.getBoundingClientRect();
-    const x = Math.floor(((event.clientX - box.left) * canvas.width) / box.width);
-    const y = Math.floor(((event.clientY - box.top) * canvas.height) / box.height);
+    return pixelAt((event.clientX - box.left) / box.width, (event.clientY - box.top) / box.height);
+}
+/** From 0 to 1 from the left and from above. */
+function pixelAt(right: number, down: number) {
+    const [x, y] = [Math.floor(right * canvas.width), Math.floor(down * canvas.height)];
     return { x, y, hit: seenAt(x + 0.5, canvas.height - y - 0.5) };
+}
+/** A pixel that shows the chosen sample, if one of a few of its vertices does. */
+function chosenPixel() {
+    const mesh = stage.pieces[chosen].meshes[0];
+    const vertices = mesh.geometry.getAttribute("position");
+    let pixel = pixelAt(0.5, 0.5);
+    for (let part = 0.05; part < 1; part += 0.1) {
+        const at = new Vector3().fromBufferAttribute(vertices, Math.floor(part * vertices.count)).applyMatrix4(mesh.matrixWorld).project(camera);
+        pixel = pixelAt((at.x + 1) / 2, (1 - at.y) / 2);
+        if (pixel.hit && stage.pieces[chosen].meshes.includes(pixel.hit.object as never)) break;
+    }
+    return pixel;
 }
 
 // The error of the pixel that the pointer rests on.
 const comparer = new PixelComparer(renderer, scene, camera, lamp);
 let resting = 0;
 let compared = 0;
-function compareAfter(event: PointerEvent, milliseconds: number): void {
+function compareAfter(pixel: () => { x: number; y: number; hit?: Intersection<Mesh> }, milliseconds: number): void {
     clearTimeout(resting);
     resting = window.setTimeout(async () => {
-        const { x, y, hit } = under(event);
+        const { x, y, hit } = pixel();
         if (!hit || !("grating" in hit.object.material) || rowland.lightVersion === 0) return;
         if (!hasReference(hit.object)) {
             element("pixel").textContent = "No error of this pixel: its grooves are a texture's, and vary within it.";
@@ -305,7 +347,7 @@ canvas.addEventListener("pointerdown", (event) => {
 }, { capture: true });
 canvas.addEventListener("pointermove", (event) => {
     const before = fingers.get(event.pointerId);
-    if (event.buttons === 0) compareAfter(event, 400);
+    if (event.buttons === 0) compareAfter(() => under(event), 400);
     else clearTimeout(resting);
     if (!held || !before) return;
     if (fingers.size === 1) {
@@ -324,7 +366,7 @@ const release = (event: PointerEvent) => {
     fingers.delete(event.pointerId);
     if (down.size > 0) return;
     referenceShown.checked ? draw() : frames.sharpen();
-    if (event.pointerType === "touch" && held) compareAfter(event, 0);
+    if (event.pointerType === "touch" && held) compareAfter(() => under(event), 0);
     held = undefined;
     controls.enabled = true;
 };
@@ -340,6 +382,7 @@ const KEYS: Record<string, () => unknown> = {
     "=": () => zoom(0.9),
     "-": () => zoom(1 / 0.9),
     q: () => stage.pieces[chosen] && turn(stage.pieces[chosen], -0.05),
+    Enter: () => stage.pieces[chosen] && compareAfter(chosenPixel, 0),
     e: () => stage.pieces[chosen] && turn(stage.pieces[chosen], 0.05),
 };
 function orbit(around: number, down: number): void {
@@ -359,16 +402,17 @@ canvas.addEventListener("keydown", (event) => {
     draw();
 });
 
-// A lost context comes back with three's own textures; the environment map is rendered again.
+// A lost context comes back empty; three uploads its textures again.
 canvas.addEventListener("webglcontextlost", () => (message.textContent = "The graphics context was lost; waiting for it to come back."));
 canvas.addEventListener("webglcontextrestored", () => {
     message.textContent = "";
-    light(shownLight, shownKeys).catch(report);
+    rowland.onUpdate();
 });
 
 function resize(): void {
-    renderer.setSize(innerWidth, innerHeight, false);
-    camera.aspect = innerWidth / innerHeight;
+    const { clientWidth, clientHeight } = canvas;
+    renderer.setSize(clientWidth, clientHeight, false);
+    camera.aspect = clientWidth / clientHeight;
     // On a narrow screen as much from left to right as on one of 4 : 3.
     camera.fov = (360 / Math.PI) * Math.atan(Math.tan((17.5 * Math.PI) / 180) * Math.max(1, 4 / 3 / camera.aspect));
     camera.updateProjectionMatrix();
@@ -378,8 +422,8 @@ addEventListener("resize", resize);
 scene.background = new Color(0x101114);
 resize();
 mark("script");
-showBuiltIn(wanted.light).catch(report); // while the cabinet is fetched
-stage = await [cabinet, samples, films][wanted.scene](rowland, wanted);
+showBuiltIn(wanted.light).catch(report);
+stage = await loading;
 loaded = true;
 mark("model");
 scene.add(stage.objects);
@@ -394,4 +438,4 @@ const named = stage.pieces.findIndex(({ name }) => name === wanted.sample);
 if (wanted.sample !== undefined && named < 0)
     report(new Error(`the address: expected sample to be one of ${stage.pieces.map(({ name }) => name).join(", ")}, found "${wanted.sample}"`));
 showSample(Math.max(named, 0));
-draw();
+rowland.onUpdate();

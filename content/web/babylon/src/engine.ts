@@ -9,13 +9,11 @@ import { RawTexture2DArray } from "@babylonjs/core/Materials/Textures/rawTexture
 import { RawTexture3D } from "@babylonjs/core/Materials/Textures/rawTexture3D.js";
 import type { Mesh } from "@babylonjs/core/Meshes/mesh.js";
 import type {} from "@babylonjs/core/Meshes/thinInstanceMesh.types.js";
-import { FromHalfFloat } from "@babylonjs/core/Misc/textureTools.js";
 import type { Scene as BabylonScene } from "@babylonjs/core/scene.js";
 import type { GrooveImage, Wrap } from "./shared/groove_map.js";
 import type { Table } from "./shared/tasks.js";
 
 export { Vector2, Vector4 };
-export const fromHalf = FromHalfFloat;
 
 export class Vector3 extends Vector {
     distanceTo(other: Vector): number {

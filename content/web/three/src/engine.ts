@@ -1,6 +1,4 @@
 /** What grating_state.ts and surface.ts take from their engine, which here is three. @rowland/babylon has a file of these names. */
-import { DataUtils } from "three";
-
 export {
     Matrix3, Texture, type Texture as GrooveTexture, Vector2, Vector3, Vector4, type BatchedMesh, type BufferGeometry, type InstancedMesh, type Object3D, type Scene,
 } from "three";
@@ -8,4 +6,3 @@ export { frames, groovesOf, partsOf, planeNormal, poseKey, poseOf, probeFromWorl
 export {
     arrayTexture, coordinatesOf, grooveImage, mipmapTexture, MOST_STORED, planeTexture, storageTexture, takeContent, volumeTexture,
 } from "./textures.js";
-export const fromHalf = (bits: number): number => DataUtils.fromHalfFloat(bits);

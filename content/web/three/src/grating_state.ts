@@ -2,7 +2,7 @@ import {
     arrayTexture, coordinatesOf, frames, grooveImage, groovesOf, Matrix3, MOST_STORED, probeFromWorld, storageTexture, takeContent, Texture,
     Vector2, Vector3, Vector4, volumeTexture, type BufferGeometry, type Grooves, type GrooveTexture, type Object3D, type Scene,
 } from "./engine.js";
-import { grooveMap, rotationAt, type GrooveImage, type GrooveMap } from "./groove_map.js";
+import { grooveMap, rotationAt, type GrooveMap } from "./groove_map.js";
 import type { Efficiencies, Rowland } from "./rowland.js";
 import { planeValues, productValues, Surface, type Representation } from "./surface.js";
 import { RANK, type MaterialTables, type Pitches } from "./tasks.js";
@@ -79,7 +79,6 @@ export class GratingState {
     private grooves?: Grooves;
     private representation?: Representation;
     private grooveTexture?: GrooveTexture;
-    private grooveImage?: GrooveImage;
     private grooveMap?: GrooveMap;
     private readonly number = ++states;
     private bakes = 0;
@@ -112,11 +111,7 @@ export class GratingState {
         this.rowland = rowland;
         this.grating = grating;
         this.efficiencies = efficiencies;
-        const image = this.grooveTexture && grooveImage(this.grooveTexture);
-        this.ready = Promise.all([rowland.material(this.number, grating, efficiencies), image]).then(([tables, image]) => {
-            this.grooveImage = image;
-            if (!this.disposed) this.setKernel(tables);
-        });
+        this.ready = rowland.material(this.number, grating, efficiencies).then((tables) => this.take(tables, () => !this.disposed));
         const bake = ++this.bakes;
         this.solved = this.ready.then(() => this.solve(grating, () => bake === this.bakes));
         this.solved.catch((error: Error) => rowland.onError(error));
@@ -144,8 +139,15 @@ export class GratingState {
         const efficiencies = await this.rowland!.solve(relief, isCurrent);
         if (!efficiencies || !isCurrent()) return;
         this.efficiencies = efficiencies;
-        const tables = await this.rowland!.material(this.number, grating, efficiencies);
-        if (isCurrent()) this.setKernel(tables);
+        await this.take(await this.rowland!.material(this.number, grating, efficiencies), isCurrent);
+    }
+
+    /** Sets the kernel, with the groove texture's moments for it. */
+    private async take(tables: MaterialTables, isCurrent: () => boolean): Promise<void> {
+        const { grooveTexture, rowland, grating } = this;
+        const sparkle = (grating as { grooveTexture?: { sparkle?: boolean } }).grooveTexture?.sparkle ?? false;
+        const map = grooveTexture && (await grooveMap(await grooveImage(grooveTexture), tables.facts[FACT.even] === 1, sparkle, rowland!));
+        if (isCurrent()) this.setKernel(tables, map);
     }
 
     private put(name: string, value: unknown): void {
@@ -197,7 +199,7 @@ export class GratingState {
         this.option(name, on ? "1" : undefined);
     }
 
-    private setKernel(tables: MaterialTables): void {
+    private setKernel(tables: MaterialTables, map?: GrooveMap): void {
         const { facts, kernel, views, kernelUniforms } = tables;
         const vector = (at: number) => new Vector3().fromArray(facts, at);
         const matrix = (at: number) => new Matrix3().fromArray(facts, at);
@@ -229,24 +231,23 @@ export class GratingState {
         this.flag("COVER", facts[FACT.ior] > 0);
         this.flag("ZERO_ORDER", facts.subarray(FACT.zeroOrder, FACT.zeroOrder + 9).some((x) => x !== 0));
         for (const [name, value] of Object.entries(this.lightValues(new Float32Array()))) if (!this.values[name]) this.put(name, value);
-        if (this.grooveImage) this.setGrooveMap(this.grooveImage, facts[FACT.even] === 1);
+        if (map) this.setGrooveMap(map, facts[FACT.even] === 1);
         if (!this.rowland!.hasLight) this.flag("ROWLAND", true); // else with the first map or table
         this.follow();
         if (this.options.has("ROWLAND")) this.rowland!.onUpdate();
     }
 
-    private setGrooveMap(image: GrooveImage, even: boolean): void {
-        const sparkle = (this.grating as { grooveTexture?: { sparkle?: boolean } }).grooveTexture?.sparkle ?? false;
-        const map = (this.grooveMap = grooveMap(image, even, sparkle));
+    private setGrooveMap(map: GrooveMap, even: boolean): void {
+        this.grooveMap = map;
         if (this.pitches && !this.flatLobe && this.representation !== "direct")
             throw new Error(`grooveTexture: pitches of ${map.smallest.toPrecision(3)} to ${map.largest.toPrecision(3)} times pitch_nm ` +
                 'with a groove_lobe that is not flat; expected the flat groove_lobe or the representation "direct"');
         this.set("groove_map", map.moments);
         this.set("groove_map_rest", map.rest);
-        this.set("groove_uv_linear", image.uvLinear);
-        this.set("groove_uv_offset", image.uvOffset);
+        this.set("groove_uv_linear", map.image.uvLinear);
+        this.set("groove_uv_offset", map.image.uvOffset);
         this.set("groove_pitch", map.smallest);
-        this.option("ROWLAND_GROOVE_UV", image.uv);
+        this.option("ROWLAND_GROOVE_UV", map.image.uv);
         this.flag("GROOVE_GAPS", map.gaps);
         this.flag("GROOVES_EVEN", even);
     }
@@ -340,7 +341,7 @@ export class GratingState {
         const { lightVersion } = rowland;
         const pitches = this.pitches;
         const turn = this.rotation;
-        const image = this.grooveImage;
+        const image = this.grooveMap?.image;
         const coordinates = image && coordinatesOf(geometry, image.uv);
         const turnOf = (vertex: number) => turn + (coordinates ? rotationAt(image, ...coordinates(vertex)) : 0);
         const { normals, gratings } = frames(object, geometry, toProbe, this.groovesOf(geometry), turnOf);

@@ -1,5 +1,5 @@
-import { fromHalf, mipmapTexture, Vector2, Vector4, type Texture } from "./engine.js";
-import { toHalf } from "./half.js";
+import { mipmapTexture, Vector2, Vector4, type Texture } from "./engine.js";
+import type { Rowland } from "./rowland.js";
 
 export type Wrap = "clamp" | "repeat" | "mirror";
 
@@ -25,54 +25,7 @@ export interface GrooveMap {
     readonly smallest: number;
     readonly largest: number;
     readonly gaps: boolean;
-}
-
-interface Level {
-    width: number;
-    height: number;
-    data: Float32Array; // RGBA
-}
-
-/** A level of half the width and height, rounded down: linear between the centres of texels. */
-function halved({ width, height, data }: Level): Level {
-    const to = { width: Math.max(1, width >> 1), height: Math.max(1, height >> 1) };
-    const half = new Float32Array(4 * to.width * to.height);
-    const between = (i: number, count: number, from: number) => {
-        const at = Math.max(((i + 0.5) * from) / count - 0.5, 0);
-        const low = Math.floor(at);
-        return { low, high: Math.min(low + 1, from - 1), weight: at - low };
-    };
-    for (let row = 0; row < to.height; ++row) {
-        const y = between(row, to.height, height);
-        for (let column = 0; column < to.width; ++column) {
-            const x = between(column, to.width, width);
-            for (let c = 0; c < 4; ++c) {
-                const inRow = (v: number) => {
-                    const left = data[4 * (v * width + x.low) + c];
-                    return left + x.weight * (data[4 * (v * width + x.high) + c] - left);
-                };
-                const low = inRow(y.low);
-                half[4 * (row * to.width + column) + c] = low + y.weight * (inRow(y.high) - low);
-            }
-        }
-    }
-    return { ...to, data: half };
-}
-
-function momentsOf(bytes: ArrayLike<number>, even: boolean, gaps: boolean, smallest: number): Float32Array {
-    const moments = new Float32Array(bytes.length);
-    for (let i = 0; i < bytes.length; i += 4) {
-        const [red, green] = [bytes[i], bytes[i + 1]];
-        moments.fill(0.5, i, i + 2);
-        if (green === 0) continue;
-        const angle = ((even ? 2 : 1) * Math.PI * red) / 255;
-        const inverse = smallest / ((2 * green) / 255);
-        moments[i] += 0.5 * Math.cos(angle);
-        moments[i + 1] += 0.5 * Math.sin(angle);
-        moments[i + 2] = inverse;
-        moments[i + 3] = gaps ? 1 : inverse * inverse;
-    }
-    return moments;
+    readonly image: GrooveImage;
 }
 
 /** The column or row of an image after wrapping. */
@@ -96,17 +49,11 @@ export function rotationAt({ bytes, width, height, wraps, nearest, uvLinear: m, 
 }
 
 /** `even`: whether the material's kernel is; `sparkle`: a pixel shows the grooves of one texel. */
-export function grooveMap(image: GrooveImage, even: boolean, sparkle: boolean): GrooveMap {
+export async function grooveMap(image: GrooveImage, even: boolean, sparkle: boolean, rowland: Rowland): Promise<GrooveMap> {
     const { bytes, width, height } = image;
-    const greens = new Set<number>();
-    for (let i = 1; i < bytes.length; i += 4) greens.add(bytes[i]);
-    const gaps = greens.delete(0);
-    const factors = [...greens].map((green) => (2 * green) / 255);
-    const [smallest, largest] = factors.length > 0 ? [Math.min(...factors), Math.max(...factors)] : [1, 1];
     const nearest = sparkle || image.nearest;
-    const levels: Level[] = [{ width, height, data: momentsOf(bytes, even, gaps, smallest) }];
-    for (let last = levels[0]; !nearest && last.width * last.height > 1; levels.push(last)) last = halved(last);
-    const texture = (texel: (value: number) => number) =>
-        mipmapTexture(levels.map(({ width, height, data }) => ({ width, height, data: Uint16Array.from(data, texel) })), nearest, image.wraps);
-    return { moments: texture(toHalf), rest: texture((value) => toHalf(value - fromHalf(toHalf(value)))), smallest, largest, gaps };
+    const { levels, ...found } = await rowland.grooveMoments(bytes, width, height, even, !nearest);
+    const texture = (of: "moments" | "rest") =>
+        mipmapTexture(levels.map(({ width, height, [of]: data }) => ({ width, height, data: data as Uint16Array<ArrayBuffer> })), nearest, image.wraps);
+    return { ...found, image, moments: texture("moments"), rest: texture("rest") };
 }

@@ -17,6 +17,12 @@ export function toHalf(x: number): number {
     return sign | rounded;
 }
 
+/** Of a finite half of at least 0. */
+export function fromHalf(half: number): number {
+    const exponent = half >>> 10;
+    return exponent === 0 ? half * 2 ** -24 : (1024 + (half & 1023)) * 2 ** (exponent - 25);
+}
+
 export interface Halves {
     readonly texels: Uint16Array; // RGBA
     readonly scale: number; // of the stored values

@@ -1,3 +1,4 @@
+import type { GrooveMoments } from "./groove_moments.js";
 import { TaskWorker } from "./task_worker.js";
 import type { ArcTables, Detail, FilmSource, FilmTable, MaterialTables, Pitches, PlaneMap, Source } from "./tasks.js";
 
@@ -152,6 +153,11 @@ export class Rowland {
     /** @internal */
     plane(id: number, normal: number[], flatLobe: boolean, pitches: Pitches | null, detail: Detail): Promise<PlaneMap> {
         return this.worker("maps").run("plane", [id, normal, flatLobe, pitches, detail]);
+    }
+
+    /** @internal */
+    grooveMoments(bytes: ArrayLike<number>, width: number, height: number, even: boolean, mipmaps: boolean): Promise<GrooveMoments> {
+        return this.worker("tables").run("grooveMoments", [bytes, width, height, even, mipmaps]);
     }
 
     /** @internal */

@@ -1,5 +1,6 @@
 /** What the worker computes, and the tables that it returns. */
 
+import { grooveMoments, type GrooveMoments } from "./groove_moments.js";
 import { packRgb, toHalf, type Halves } from "./half.js";
 import { BakeModule } from "./module.js";
 
@@ -245,6 +246,10 @@ export class Tasks {
         const products = module.numbers("arc_products", arc, ...inputs, normals.length / 3);
         for (const input of inputs) module.call("give_back", input);
         return products;
+    }
+
+    async grooveMoments(bytes: ArrayLike<number>, width: number, height: number, even: boolean, mipmaps: boolean): Promise<GrooveMoments> {
+        return grooveMoments(bytes, width, height, even, mipmaps);
     }
 
     async film({ json, thinnest_nm, smoothest, base }: FilmSource): Promise<FilmTable> {

@@ -10,17 +10,18 @@ import { chromium, packageFolder, resultOf, withDrivers } from "./browser.mjs";
 const site = process.env.SITE ?? packageFolder + "../site";
 const missing = !chromium() ? "needs Chromium" : existsSync(join(site, "index.html")) ? false : `needs the page in ${site}`;
 
-const LOADED = ["index.html", "page.css", "page.js", "worker.js", "bake.wasm", "arc.wasm", "cabinet.glb", "draco/draco_decoder.wasm",
+const LOADED = ["index.html", "page.css", "page.js", "worker.js", "environment.js", "bake.wasm", "arc.wasm", "cabinet.glb", "draco/draco_decoder.wasm",
     "draco/draco_wasm_wrapper.js"]; // before anything is asked
 
 // Small, as software draws it.
-async function visit(query, address = "scene=samples", size = "480,417") {
+async function visit(query, address = "scene=samples", size = "400,540") {
     const folder = mkdtempSync(join(tmpdir(), "rowland-page-"));
     try {
         const page = join(folder, "index.html");
         const { text, files } = withDrivers(readFileSync(join(site, "index.html"), "utf8"), "picture_driver.js", "page_driver.js");
         writeFileSync(page, text);
         files["/index.html"] = page;
+        files["/axe.js"] = packageFolder + "node_modules/axe-core/axe.min.js";
         const requests = [];
         const result = await resultOf(`index.html?${query}#${address}`, {}, { folder: site, files, seconds: 400, size, requests });
         assert.ok(!requests.includes("/solve.wasm"), "the page's gratings are solved when it is built");
@@ -54,21 +55,58 @@ test("the cabinet is shown, turns, compares with the reference and outlives a lo
     assert.ok(part > 0.005, "the reference is not black");
     assert.ok(Math.abs(drawn - reference) < 0.5 * reference, `a mean of ${drawn}, of the reference ${reference}`);
     assert.match(result.lost, /context was lost/);
-});
-
-let colour; // of the picture without limits
-test("the page draws on demand, outlives a lost context and names a broken file", { skip: missing }, async (t) => {
-    const result = await visit("visit=4000");
-    t.diagnostic(`${JSON.stringify(result.marks)}, settled ${Math.round(result.settled)} ms, in software`);
-    t.diagnostic(`${result.lost} | ${result.broken} | ${result.pixel}`);
-    assert.equal(result.framesAtRest, 0);
-    assert.match(result.lost, /context was lost/);
-    assert.match(result.broken, /broken\.hdr/);
-    assert.match(result.pixel, /Difference: \d/);
-    colour = result.pictures.first.colour;
     const { first, restored } = result.pictures;
     assert.ok(first.colour > 4, `colours of ${first.colour}`);
     assert.ok(Math.abs(restored.colour - first.colour) < 0.1 * first.colour, `${restored.colour} after ${first.colour}`);
+});
+
+// One visit with a phone, 390 x 844, for all that these tests ask.
+let onPhone;
+const phone = () => (onPhone ??= visit("phone"));
+
+test("the page draws on demand and names a broken file", { skip: missing }, async (t) => {
+    const { marks, settled, framesAtRest, pictures, broken } = await phone();
+    t.diagnostic(`${JSON.stringify(marks)}, settled ${Math.round(settled)} ms, in software; ${broken}`);
+    assert.equal(framesAtRest, 0);
+    assert.ok(pictures.first.colour > 3, `colours of ${pictures.first.colour}`);
+    assert.match(broken, /broken\.hdr/);
+});
+
+test("on a phone all controls are 44 pixels high, in the lower half, and nothing scrolls sideways", { skip: missing }, async () => {
+    const { boxes, wider, width, height } = (await phone()).layout;
+    assert.ok(boxes.length > 6, String(boxes.length));
+    for (const { id, left, top, right, bottom } of boxes)
+        assert.ok(left >= 0 && right <= width && top >= height / 2 && bottom <= height && bottom - top >= 44 && right - left >= 44, `${id}: ${[left, top, right, bottom]}`);
+    assert.deepEqual(wider, [0, 0, 0]);
+});
+
+test("Tab reaches every control, focus is seen, and keys orbit and compare a pixel", { skip: missing }, async () => {
+    const { tabbed, keys } = await phone();
+    assert.ok(tabbed.length > 6 && tabbed.every(({ expected, seen }) => expected && seen), JSON.stringify(tabbed));
+    assert.ok(Math.abs(keys.after.azimuth - keys.before.azimuth - 0.06) < 1e-6);
+    assert.match(keys.pixel, /Difference: \d/);
+});
+
+test("axe-core finds nothing serious", { skip: missing }, async () => {
+    const { passed, found } = (await phone()).violations;
+    assert.ok(passed > 10, String(passed));
+    assert.deepEqual(found, []);
+});
+
+test("fingers turn a disc, orbit and zoom", { skip: missing }, async (t) => {
+    const { turn, orbit, pinch } = (await phone()).touches;
+    t.diagnostic(JSON.stringify({ turn, orbit, pinch }));
+    assert.ok(Math.abs(Math.max(...turn.after.turns) - 0.8) < 0.05, "a sample turns .01 rad for each pixel");
+    assert.ok(Math.abs(turn.after.azimuth - turn.before.azimuth) < 1e-6);
+    assert.ok(Math.abs(orbit.after.azimuth - orbit.before.azimuth) > 0.1);
+    assert.deepEqual(orbit.after.turns, orbit.before.turns);
+    assert.ok(pinch.after.distance < 0.7 * pinch.before.distance, "fingers that part come nearer");
+});
+
+test("the page shows the same with halves filtered alone and textures of 2048 texels", { skip: missing }, async () => {
+    const { colour } = (await phone()).pictures.first;
+    const found = (await visit("halves&small&phone")).pictures.first.colour;
+    assert.ok(Math.abs(found - colour) < 0.02 * colour, `colours of ${found}, without the limits ${colour}`);
 });
 
 test("films are shown, and a slider makes the bubble thinner", { skip: missing }, async (t) => {
@@ -79,18 +117,8 @@ test("films are shown, and a slider makes the bubble thinner", { skip: missing }
     assert.ok(changed > 0.003 && changed < 0.05, "the bubble alone has other colours");
 });
 
-test("fingers turn a disc, orbit and zoom", { skip: missing }, async (t) => {
-    const { turn, orbit, pinch } = (await visit("touch", "scene=samples", "800,600")).touches;
-    t.diagnostic(JSON.stringify({ turn, orbit, pinch }));
-    assert.ok(Math.abs(Math.max(...turn.after.turns) - 0.8) < 0.05, "a sample turns .01 rad for each pixel");
-    assert.ok(Math.abs(turn.after.azimuth - turn.before.azimuth) < 1e-6);
-    assert.ok(Math.abs(orbit.after.azimuth - orbit.before.azimuth) > 0.1);
-    assert.deepEqual(orbit.after.turns, orbit.before.turns);
-    assert.ok(pinch.after.distance < 0.7 * pinch.before.distance, "fingers that part come nearer");
-});
-
-test("the page shows the same with halves filtered alone and textures of 2048 texels", { skip: missing }, async () => {
-    const result = await visit("halves&small");
-    const found = result.pictures.first.colour;
-    assert.ok(Math.abs(found - colour) < 0.02 * colour, `colours of ${found}, without the limits ${colour}`);
+test("without WebGL 2 there is a picture, and a sentence that says what to do", { skip: missing }, async () => {
+    const { said, size, alt } = await visit("without", "scene=cabinet");
+    assert.match(said, /no WebGL 2.*update the browser/);
+    assert.ok(size[0] >= 640 && alt.includes("CD"), `${size} ${alt}`);
 });

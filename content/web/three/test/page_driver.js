@@ -3,6 +3,12 @@ const limits = new URLSearchParams(location.search);
 const gl = WebGL2RenderingContext.prototype;
 const getExtension = gl.getExtension;
 const getParameter = gl.getParameter;
+if (limits.has("without")) {
+    const any = HTMLCanvasElement.prototype.getContext;
+    HTMLCanvasElement.prototype.getContext = function (kind, ...settings) {
+        return kind === "webgl2" ? null : any.call(this, kind, ...settings);
+    };
+}
 if (limits.has("halves")) {
     gl.getExtension = function (name) {
         return name === "OES_texture_float_linear" ? null : getExtension.call(this, name);
@@ -87,11 +93,17 @@ async function swipe(fingers) {
     return { before, after: pose() };
 }
 
+/** A point of the scene: from the picture's middle, in its heights where it is not narrow. */
+function spot(right, down) {
+    const { left, top, width, height } = document.getElementById("view").getBoundingClientRect();
+    const unit = height / Math.max(1, (4 / 3) * (height / width));
+    return [left + width / 2 + right * unit, top + height / 2 + down * unit];
+}
+
 /** A finger that turns a sample, one that orbits, and two that zoom. */
 async function touches() {
-    await devtools("Emulation.setTouchEmulationEnabled", { enabled: true, maxTouchPoints: 2 });
-    const sample = [innerWidth * 0.15, innerHeight * 0.64];
-    const sky = [innerWidth * 0.3, innerHeight * 0.08];
+    const sample = spot(-0.44, -0.05);
+    const sky = spot(-0.35, -0.42);
     const beside = ([x, y], by) => [x + by, y];
     return {
         turn: await swipe([[sample, beside(sample, 80)]]),
@@ -105,7 +117,7 @@ const pieces = () => [...document.getElementById("sample").options].map(({ text 
 
 /** The names in the cabinet, and the pose before and after a drag of its record. */
 async function turnedRecord() {
-    const record = [innerWidth * 0.31, innerHeight * 0.4];
+    const record = spot(-0.33, -0.1);
     const before = pose();
     const drawn = frames();
     pointer("pointerdown", ...record);
@@ -128,7 +140,10 @@ async function lose() {
 }
 
 async function pixelAt(x, y) {
-    pointer("pointermove", innerWidth * x, innerHeight * y);
+    pointer("pointermove", x, y);
+    return pixel();
+}
+async function pixel() {
     await until("the pixel's error", () => document.getElementById("pixel").textContent.includes("Difference"));
     return document.getElementById("pixel").textContent;
 }
@@ -154,9 +169,71 @@ async function wiped() {
     return { pictures: { drawn, reference }, part: seen.length / reference.data.length, drawn: mean(drawn), reference: mean(reference) };
 }
 
+/** A phone, upright, whose pixels are few. */
+async function holdPhone() {
+    await devtools("Emulation.setDeviceMetricsOverride", { width: 390, height: 844, deviceScaleFactor: 1, mobile: true });
+    await devtools("Emulation.setTouchEmulationEnabled", { enabled: true, maxTouchPoints: 2 });
+    await until("the phone", () => innerWidth === 390);
+}
+
+/** Where the controls are when each is scrolled to, and how far the page scrolls sideways. */
+function layout() {
+    const controls = [...document.querySelectorAll("#panel input, #panel select")].filter((control) => control.checkVisibility());
+    const boxes = controls.map((control) => {
+        control.scrollIntoView({ block: "nearest" });
+        const { left, top, right, bottom } = control.getBoundingClientRect();
+        return { id: control.id, left, top, right, bottom };
+    });
+    const wider = [document.documentElement, document.body, document.getElementById("panel")].map(({ scrollWidth, clientWidth }) => scrollWidth - clientWidth);
+    return { boxes, wider, width: innerWidth, height: innerHeight };
+}
+
+async function key(name, code = name) {
+    const codes = { Tab: 9, Enter: 13, ArrowRight: 39 };
+    for (const type of ["keyDown", "keyUp"]) await devtools("Input.dispatchKeyEvent", { type, key: name, code, windowsVirtualKeyCode: codes[name] });
+}
+
+/** What Tab reaches, and whether its focus is seen. */
+async function tabbed() {
+    const expected = [...document.querySelectorAll("#view, #panel input, #panel select")].filter((one) => one.checkVisibility());
+    const reached = [];
+    document.activeElement.blur();
+    for (let i = 0; i < expected.length; ++i) {
+        await key("Tab");
+        const { outlineStyle, outlineWidth } = getComputedStyle(document.activeElement);
+        reached.push({ expected: document.activeElement === expected[i], id: document.activeElement.id, seen: outlineStyle !== "none" && parseFloat(outlineWidth) >= 2 });
+    }
+    return reached;
+}
+
+/** The keys on the picture: an arrow orbits, and Enter compares a pixel of the chosen sample. */
+async function keys() {
+    document.getElementById("view").focus();
+    const [before, drawn] = [pose(), frames()];
+    await key("ArrowRight");
+    await until("a frame after the key", () => frames() > drawn);
+    const after = pose();
+    await key("Enter");
+    return { before, after, pixel: await pixel() };
+}
+
+async function violations() {
+    await new Promise((resolve, reject) => document.head.append(Object.assign(document.createElement("script"), { src: "/axe.js", onload: resolve, onerror: reject })));
+    const { violations, passes } = await axe.run();
+    return { passed: passes.length, found: violations.filter(({ impact }) => impact === "serious" || impact === "critical")
+        .map(({ id, nodes }) => `${id}: ${nodes.map(({ html }) => html).join(" ")}`) };
+}
+
 async function visit() {
     const result = { errors, pictures: {} };
     const show = async (name) => (result.pictures[name] = await picture());
+    if (limits.has("without")) {
+        await until("word of what lacks", () => said() !== "");
+        const image = document.getElementById("view");
+        await image.decode();
+        return post({ ...result, said: said(), alt: image.alt, size: [image.naturalWidth, image.naturalHeight], errors: [] });
+    }
+    if (limits.has("phone")) await holdPhone();
     // Every flat sample; the ball's table takes seconds.
     await until("the first light", () => Number(document.documentElement.dataset.lit) >= 4);
     const { processInfo } = await devtools("SystemInfo.getProcessInfo");
@@ -165,17 +242,21 @@ async function visit() {
     if (limits.has("cabinet")) {
         Object.assign(result, await turnedRecord());
         await settled();
-        result.pixel = await pixelAt(0.31, 0.4);
+        result.pixel = await pixelAt(...spot(-0.33, -0.1));
         const { pictures, ...wipe } = await wiped();
         Object.assign(result.pictures, pictures);
         result.wipe = wipe;
+        await settled();
+        await show("first");
         result.lost = await lose();
         await show("restored");
         return post(result);
     }
+    await settled();
+    result.settled = performance.now() - 1000;
+    await show("first");
     if (limits.has("films")) {
-        await settled();
-        const first = await show("first");
+        const { first } = result.pictures;
         const thickness = document.querySelector("#sliders input");
         thickness.value = 0.4 * thickness.value;
         thickness.dispatchEvent(new Event("input"));
@@ -186,26 +267,20 @@ async function visit() {
         const changed = [...first.data.keys()].filter((i) => Math.abs(first.data[i] - thinner.data[i]) > 8).length / first.data.length;
         return post({ ...result, pieces: pieces(), changed });
     }
-    if (limits.has("touch")) return post({ ...result, touches: await touches() });
-    await settled();
-    result.settled = performance.now() - 1000;
+    if (limits.has("halves")) return post(result);
     const before = frames();
     await wait(2000);
     result.framesAtRest = frames() - before;
-    await show("first");
-    if (limits.has("visit")) {
-        result.lost = await lose();
-        await show("restored");
-        const dropped = new DataTransfer();
-        dropped.items.add(new File(["#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 64 +X 128\n"], "broken.hdr"));
-        dispatchEvent(new DragEvent("drop", { dataTransfer: dropped }));
-        await until("word of the broken file", () => said() !== "");
-        result.broken = said();
-        result.pixel = await pixelAt(0.15, 0.64);
-        document.getElementById("reference").click();
-        await wait(Number(limits.get("visit")));
-        await show("reference");
-    }
+    result.layout = layout();
+    result.tabbed = await tabbed();
+    result.keys = await keys();
+    result.violations = await violations();
+    result.touches = await touches();
+    const dropped = new DataTransfer();
+    dropped.items.add(new File(["#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 64 +X 128\n"], "broken.hdr"));
+    dispatchEvent(new DragEvent("drop", { dataTransfer: dropped }));
+    await until("word of the broken file", () => said() !== "");
+    result.broken = said();
     await post(result);
 }
 visit().catch((error) => post({ errors: [error.message, ...errors] }));
