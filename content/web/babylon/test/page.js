@@ -1,4 +1,4 @@
-// All that the tests draw, in one page: what they compare is posted to /result.
+// What the tests draw, of the part that the task names: what they compare is posted to /result.
 import { Engine } from "@babylonjs/core/Engines/engine.js";
 import * as THREE from "../../three/node_modules/three/build/three.module.js";
 import { FilmMaterial, Rowland as ThreeRowland } from "../../three/dist/index.js";
@@ -25,14 +25,11 @@ async function rowlandUnder(Class, probe, keys) {
     return { rowland, keys: found };
 }
 
-try {
-    const { cases, mirrors, films, kinds } = await (await fetch("/task")).json();
-    const started = performance.now();
-    const times = {};
-    const took = (name) => (times[name] = Math.round(performance.now() - started));
-    const panorama = await readPanorama("light.hdr");
-    const { rowland, keys } = await rowlandUnder(Rowland, panorama);
-    took("light");
+const started = performance.now();
+const times = {};
+const took = (name) => (times[name] = Math.round(performance.now() - started));
+
+async function points({ cases, mirrors, films }, { rowland, three }) {
     const engine = new Engine(document.createElement("canvas"), false);
     const results = [];
     for (const one of cases) results.push(await radiance(engine, rowland, one));
@@ -41,25 +38,30 @@ try {
     const mirrored = [];
     for (const one of mirrors) mirrored.push(await radiance(engine, rowland, { ...one, mirrors: url }));
     took("mirrors");
-    const three = await rowlandUnder(ThreeRowland, panorama, keys);
     const renderer = new THREE.WebGLRenderer();
-    const byThreePoints = [];
-    for (const one of cases) byThreePoints.push(one.three ? await radianceByThree({ renderer, Material: PointMaterial }, three.rowland, one) : null);
+    const byThree = [];
+    for (const one of cases) byThree.push(one.three ? await radianceByThree({ renderer, Material: PointMaterial }, three.rowland, one) : null);
     took("three's points");
     const white = URL.createObjectURL(panoramaOf(32, 16, () => [128, 128, 128, 129]));
     const filmResults = [];
-    for (const one of films)
-        filmResults.push({ babylon: await filmReflectance(engine, rowland, white, one), three: await filmByThree([renderer, FilmMaterial], three.rowland, one) });
+    for (const one of films) {
+        const views = one.views.filter((_, i) => i % 5 === 0);
+        filmResults.push({ babylon: await filmReflectance(engine, rowland, white, one), three: await filmByThree([renderer, FilmMaterial], three.rowland, { ...one, views }) });
+    }
     took("films");
+    return { results, mirrored, byThree, films: filmResults };
+}
+
+async function scenes({ kinds }, { rowland, three, panorama }) {
     const compared = await comparisons(rowland, pixelsOfUrl);
     took("instances and cameras");
-    const scenes = { babylon: await byBabylon(rowland, "light.hdr", kinds), three: await byThree(three.rowland, panorama, kinds) };
+    const drawn = { babylon: await byBabylon(rowland, "light.hdr", kinds), three: await byThree(three.rowland, panorama, kinds) };
     took("scenes");
     const pictures = Object.fromEntries(compared.flatMap(({ name, urls }) => Object.entries(urls).map(([of, url]) => [`${name}_${of}`, url])));
     const diffracted = {};
-    for (const [name, { pictures: drawn }] of Object.entries(scenes)) {
-        diffracted[name] = await pixelsOfUrl(drawn.diffracted);
-        for (const [of, picture] of Object.entries(drawn)) pictures[`${name}_${of}`] = picture;
+    for (const [name, { pictures: kinds }] of Object.entries(drawn)) {
+        diffracted[name] = await pixelsOfUrl(kinds.diffracted);
+        for (const [of, picture] of Object.entries(kinds)) pictures[`${name}_${of}`] = picture;
     }
     await import("../examples/disc.js");
     const canvas = document.querySelector("canvas");
@@ -74,7 +76,17 @@ try {
     }
     took("example");
     pictures.disc = canvas.toDataURL("image/png");
-    await post({ errors, results, mirrored, byThree: byThreePoints, diffracted, films: filmResults, compared, gltfFilm: scenes.babylon.film, pictures, green, times });
+    return { compared, diffracted, gltfFilm: drawn.babylon.film, pictures, green };
+}
+
+try {
+    const task = await (await fetch("/task")).json();
+    const panorama = await readPanorama("light.hdr");
+    const { rowland, keys } = await rowlandUnder(Rowland, panorama);
+    const under = { panorama, rowland, three: await rowlandUnder(ThreeRowland, panorama, keys) };
+    took("light");
+    const drawn = await { points, scenes }[task.part](task, under);
+    await post({ errors, times, ...drawn });
 } catch (error) {
     await post({ errors: [...errors, error.message + "\n" + error.stack] });
 }
