@@ -65,7 +65,7 @@ let frameCount = 0;
 const litMaterials = () => stage.pieces.flatMap(materialsOf).filter(({ lit }) => lit).length;
 const programs = new Programs(renderer, scene, camera);
 const frames = new Frames(renderer, {
-    prepare: () => programs.compile(),
+    prepare: () => programs.compile().catch(report),
     render() {
         renderer.render(scene, camera);
         if (referenceShown.checked) reference.draw();

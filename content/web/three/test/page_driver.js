@@ -181,7 +181,8 @@ function layout() {
     const controls = [...document.querySelectorAll("#panel input, #panel select")].filter((control) => control.checkVisibility());
     const boxes = controls.map((control) => {
         control.scrollIntoView({ block: "nearest" });
-        const { left, top, right, bottom } = control.getBoundingClientRect();
+        const target = control.type === "checkbox" ? control.closest("label") : control;
+        const { left, top, right, bottom } = target.getBoundingClientRect();
         return { id: control.id, left, top, right, bottom };
     });
     const wider = [document.documentElement, document.body, document.getElementById("panel")].map(({ scrollWidth, clientWidth }) => scrollWidth - clientWidth);
