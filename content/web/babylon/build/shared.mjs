@@ -2,6 +2,6 @@
 import { copyFileSync, mkdirSync, writeFileSync } from "node:fs";
 
 mkdirSync("src/shared/generated", { recursive: true });
-for (const name of ["generated/shaders", "grating_state", "half", "module", "rowland", "surface", "task_worker", "tasks", "worker"])
+for (const name of ["generated/shaders", "grating_state", "groove_moments", "half", "module", "rowland", "surface", "task_worker", "tasks", "worker"])
     copyFileSync(`../three/src/${name}.ts`, `src/shared/${name}.ts`);
 writeFileSync("src/shared/engine.ts", 'export * from "../engine.js";\n');
