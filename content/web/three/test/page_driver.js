@@ -180,8 +180,8 @@ async function holdPhone() {
 function layout() {
     const controls = [...document.querySelectorAll("#panel input, #panel select")].filter((control) => control.checkVisibility());
     const boxes = controls.map((control) => {
-        control.scrollIntoView({ block: "nearest" });
         const target = control.type === "checkbox" ? control.closest("label") : control;
+        target.scrollIntoView({ block: "nearest" });
         const { left, top, right, bottom } = target.getBoundingClientRect();
         return { id: control.id, left, top, right, bottom };
     });
