@@ -16,7 +16,9 @@ import { cabinet, films, hasReference, materialsOf, Rest, samples, type Piece, t
 
 const element = <Kind extends HTMLElement>(id: string) => document.getElementById(id) as Kind;
 const message = element("message");
-const report = (error: unknown) => (message.textContent = (error as Error).message ?? String(error));
+const report = (error: unknown): void => {
+    message.textContent = (error as Error).message ?? String(error);
+};
 addEventListener("error", (event) => report(event.error ?? event.message));
 addEventListener("unhandledrejection", (event) => report(event.reason));
 
