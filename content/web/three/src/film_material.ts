@@ -1,6 +1,7 @@
 import { MeshPhysicalMaterial, type IUniform, type WebGLProgramParametersWithUniforms } from "three";
 import { FILM, FILM_TABLE } from "./generated/shaders.js";
-import { withFilm, type FilmValues } from "./with_film.js";
+import type { FilmValues } from "./film_table.js";
+import { withFilm } from "./with_film.js";
 
 /**
  * MeshPhysicalMaterial of WebGLRenderer whose reflection is that of thin layers, summed over wavelengths and both

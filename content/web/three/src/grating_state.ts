@@ -2,7 +2,7 @@ import {
     arrayTexture, coordinatesOf, frames, grooveImage, groovesOf, Matrix3, MOST_STORED, probeFromWorld, storageTexture, takeContent, Texture,
     Vector2, Vector3, Vector4, volumeTexture, type BufferGeometry, type Grooves, type GrooveTexture, type Object3D, type Scene,
 } from "./engine.js";
-import { grooveMap, rotationAt, type GrooveMap } from "./groove_map.js";
+import { grooveMap, rotationAt, type GrooveImage, type GrooveMap } from "./groove_map.js";
 import type { Efficiencies, Rowland } from "./rowland.js";
 import { planeValues, productValues, Surface, type Representation } from "./surface.js";
 import { RANK, type MaterialTables, type Pitches } from "./tasks.js";
@@ -111,7 +111,9 @@ export class GratingState {
         this.rowland = rowland;
         this.grating = grating;
         this.efficiencies = efficiencies;
-        this.ready = rowland.material(this.number, grating, efficiencies).then((tables) => this.take(tables, () => !this.disposed));
+        const image = this.grooveTexture && grooveImage(this.grooveTexture);
+        this.ready = Promise.all([rowland.material(this.number, grating, efficiencies), image])
+            .then(([tables, image]) => this.take(tables, image, () => !this.disposed));
         const bake = ++this.bakes;
         this.solved = this.ready.then(() => this.solve(grating, () => bake === this.bakes));
         this.solved.catch((error: Error) => rowland.onError(error));
@@ -139,14 +141,13 @@ export class GratingState {
         const efficiencies = await this.rowland!.solve(relief, isCurrent);
         if (!efficiencies || !isCurrent()) return;
         this.efficiencies = efficiencies;
-        await this.take(await this.rowland!.material(this.number, grating, efficiencies), isCurrent);
+        await this.take(await this.rowland!.material(this.number, grating, efficiencies), this.grooveMap?.image, isCurrent);
     }
 
     /** Sets the kernel, with the groove texture's moments for it. */
-    private async take(tables: MaterialTables, isCurrent: () => boolean): Promise<void> {
-        const { grooveTexture, rowland, grating } = this;
-        const sparkle = (grating as { grooveTexture?: { sparkle?: boolean } }).grooveTexture?.sparkle ?? false;
-        const map = grooveTexture && (await grooveMap(await grooveImage(grooveTexture), tables.facts[FACT.even] === 1, sparkle, rowland!));
+    private async take(tables: MaterialTables, image: GrooveImage | undefined, isCurrent: () => boolean): Promise<void> {
+        const sparkle = (this.grating as { grooveTexture?: { sparkle?: boolean } }).grooveTexture?.sparkle ?? false;
+        const map = image && (await grooveMap(image, tables.facts[FACT.even] === 1, sparkle, this.rowland!));
         if (isCurrent()) this.setKernel(tables, map);
     }
 

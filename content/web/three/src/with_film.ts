@@ -3,8 +3,6 @@ import { filmRows, filmSource, filmValues, type FilmFile, type FilmRows, type Fi
 import type { Rowland } from "./rowland.js";
 import type { FilmTable } from "./tasks.js";
 
-export type { FilmRows, FilmValues };
-
 export interface FilmParameters extends MeshPhysicalMaterialParameters {
     rowland?: Rowland;
     /**

@@ -6,7 +6,8 @@ import {
     sqrt, texture, uniform, vec2, vec3,
 } from "three/tsl";
 import { MeshPhysicalNodeMaterial, PhysicalLightingModel, type NodeBuilder } from "three/webgpu";
-import { withFilm, type FilmRows, type FilmValues } from "../with_film.js";
+import type { FilmRows, FilmValues } from "../film_table.js";
+import { withFilm } from "../with_film.js";
 import type { Float, Vec3, Vec4 } from "./program.js";
 
 /** By columns: M, and in the fourth row what the film reflects of white. */
