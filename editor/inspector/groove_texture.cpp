@@ -12,7 +12,7 @@ namespace rowland::inspector {
 namespace foil = diffraction::foil;
 
 std::vector<std::byte> foil_pattern(std::string_view name) {
-    // Eight cells of the usual size across, for a surface of any size.
+    // Eight tiles of the default size across, for a surface of any size.
     constexpr foil::Area kArea{.width_px = 512, .height_px = 512, .width_mm = 40.0, .repeats = true};
     foil::Foil drawn;
     const std::optional<foil::FoilType> type = foil::foil_type(name);

@@ -21,7 +21,7 @@ inline constexpr const char* kFoilAssetType = "foil";
 // multiplied by Foil::scale; angles are degrees, counter-clockwise from the direction in which u grows.
 
 /// Vertical bands. Grooves are horizontal, and their pitch grows from one edge of a band to the other, so that on tilt
-/// the place of a colour slides sideways. Foil::direction_deg turns the bands.
+/// a colour slides sideways. Foil::direction_deg turns the bands.
 struct Pillars {
     double band_mm = 9.0;
     double pitch_range = 1.5;  ///< largest pitch of a band over its smallest

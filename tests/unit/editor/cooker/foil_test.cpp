@@ -57,8 +57,9 @@ TEST_F(FoilCommand, CardsOfAllTypesAreValidGltf) {
         const std::string recipe = R"({"artwork": "a.png", "mask": "a.png", "texture_px": 512, "foil": {"type": ")" +
                                    type + R"("}, "card": {"back": "a.png"}})";
         ASSERT_EQ(foil(recipe).code, 0) << type;
-        const test::Ended ended = test::run(
-            {"node", test::source_path("tests/unit/engine/scene/validate_gltf.cjs"), path("card.glb").string()});
+        const test::Ended ended =
+            test::run({"/usr/bin/env", "node", test::source_path("tests/unit/engine/scene/validate_gltf.cjs"),
+                       path("card.glb").string()});
         if (ended.code == 77 || ended.code == 127) GTEST_SKIP() << "no gltf-validator";
         EXPECT_EQ(ended.code, 0) << type << ": " << ended.out << ended.err;
     }
