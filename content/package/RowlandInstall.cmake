@@ -79,6 +79,7 @@ rowland_export(runtime
   rowland_view View
   rowland_diffraction_reference DiffractionReference
   rowland_diffraction_evaluate DiffractionEvaluate
+  rowland_diffraction_foil DiffractionFoil
   rowland_diffraction_cook DiffractionCook
   rowland_diffraction Diffraction
   rowland_thin_film_asset ThinFilmAsset

@@ -1,4 +1,4 @@
-// rowland-cook over the asset types of all modules, with its command "export".
+// rowland-cook over the asset types of all modules, with its commands "foil", "export" and "capture".
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "editor/cooker/cooker_program.h"
+#include "editor/cooker/foil_command.h"
 #include "engine/command_line/command_line.h"
 #include "engine/core/error.h"
 #include "engine/core/file.h"
@@ -165,5 +166,6 @@ void add_capture_command(CLI::App& program) {
 
 int main(int argc, char** argv) {
     return rowland::editor::run_cooker(argc, argv, *rowland::modules::asset_types(),
-                                       {rowland::editor::add_export_command, rowland::editor::add_capture_command});
+                                       {rowland::editor::add_foil_command, rowland::editor::add_export_command,
+                                        rowland::editor::add_capture_command});
 }

@@ -8,11 +8,13 @@
 
 namespace rowland::inspector {
 
-/// Patterns of foil. hexagons, tiles: one direction per cell; rosettes: flowers of rings; radial: the grating vector
-/// points away from the middle, so that grooves are circles (rays after a rotation by 90°).
-inline constexpr std::array kFoilPatterns = {"hexagons", "tiles", "rosettes", "radial"};
+/// The types of modules/diffraction/foil that need no picture, with their default numbers. radial: grooves are circles
+/// (rays after a rotation by 90°). pillars: the pitch varies, for materials whose groove_lobe is flat.
+inline constexpr std::array kFoilPatterns = {"pillars", "radial",      "tiles",   "hexagons",
+                                             "cosmos",  "cracked_ice", "glitter", "brushed"};
 
-/// A groove texture as PNG; `name` is one of kFoilPatterns. R: rotation / π; G: one half, the material's own pitch.
+/// A groove texture that repeats without a seam, but for radial and brushed, as PNG of 16 bits; `name` is one of
+/// kFoilPatterns. R: rotation / π; G: half of the pitch over the material's own.
 std::vector<std::byte> foil_pattern(std::string_view name);
 
 /// Converts a PNG or JPEG to a groove texture, PNG. A picture whose blue is 0 everywhere is one already and is returned

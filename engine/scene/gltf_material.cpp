@@ -136,7 +136,23 @@ using SharedImage = std::shared_ptr<const image::ByteImage>;
 struct Encoded {
     std::size_t image = 0;
     GltfBuffer bytes;
+    image::Depth depth = image::Depth::Bytes;
 };
+
+/// Marks the images of the textures that the materials' other extensions name: data, of which 16 bits are kept.
+std::vector<bool> images_of_extensions(const gltf::Model& model, const std::vector<MaterialDescription>& materials) {
+    std::vector<bool> marked(model.images.size(), false);
+    const auto mark = [&](const nlohmann::json& info) {
+        const auto index = info.is_object() ? info.find("index") : info.end();
+        if (index == info.end() || !index->is_number_unsigned() || *index >= model.textures.size()) return;
+        const int image = model.textures[index->get<std::size_t>()].source;
+        if (image >= 0) marked[static_cast<std::size_t>(image)] = true;
+    };
+    for (const MaterialDescription& material : materials)
+        for (const auto& [name, extension] : material.extensions)
+            for (const auto& [key, member] : extension.items()) mark(member);
+    return marked;
+}
 
 /// Calls `read` and adds the file and the image to the Error that it throws.
 template <typename Read>
@@ -151,13 +167,19 @@ auto read_at(const std::string& file, std::size_t image, const Read& read) {
     }
 }
 
+/// The most that a texel takes once it is decoded.
+std::uint64_t texel_bytes(image::Depth depth) {
+    return depth == image::Depth::OfFile ? 4 + 8 : 4;
+}
+
 /// Throws Error (input) if highly compressed images would use memory out of proportion to the file.
 void check_decoded_total(const std::vector<Encoded>& encoded, const std::string& file) {
     std::uint64_t decoded = 0;
     std::uint64_t bytes = 0;
     for (const Encoded& picture : encoded) {
         const image::ByteImageSize size = image::byte_image_size(picture.bytes.bytes, file);
-        decoded += 4 * static_cast<std::uint64_t>(size.width) * static_cast<std::uint64_t>(size.height);
+        decoded += texel_bytes(picture.depth) * static_cast<std::uint64_t>(size.width) *
+                   static_cast<std::uint64_t>(size.height);
         bytes += picture.bytes.bytes.size();
     }
     if (const std::uint64_t limit = image::decoded_limit(bytes); decoded > limit)
@@ -167,8 +189,8 @@ void check_decoded_total(const std::vector<Encoded>& encoded, const std::string&
 
 /// Fetches the bytes of the images that a texture names. Throws Error (input) if they would take too much memory once
 /// decoded.
-std::vector<Encoded> fetch(const GltfSource& source, const GltfDocument& document, MemoryBudget& budget,
-                           std::vector<std::filesystem::path>* read_files) {
+std::vector<Encoded> fetch(const GltfSource& source, const GltfDocument& document, const std::vector<bool>& is_data,
+                           MemoryBudget& budget, std::vector<std::filesystem::path>* read_files) {
     const gltf::Model& model = document.model;
     std::vector<bool> named(model.images.size(), false);
     for (const gltf::Texture& texture : model.textures)
@@ -179,14 +201,16 @@ std::vector<Encoded> fetch(const GltfSource& source, const GltfDocument& documen
         if (!named[i]) continue;
         const gltf::Image& from = model.images[i];
         const std::string pointer = fmt::format("/images/{}", i);
-        Encoded& added = encoded.emplace_back(Encoded{i, {}});
+        const image::Depth depth = is_data[i] ? image::Depth::OfFile : image::Depth::Bytes;
+        Encoded& added = encoded.emplace_back(Encoded{i, {}, depth});
         if (from.bufferView >= 0)
             added.bytes.bytes = document.view_bytes(from.bufferView);
         else
             added.bytes = load_uri(source, from.uri, pointer, budget, read_files);
         const image::ByteImageSize size =
             read_at(document.file, i, [&] { return image::byte_image_size(added.bytes.bytes, ""); });
-        pictures.spend(static_cast<std::uint64_t>(size.width) * static_cast<std::uint64_t>(size.height), 4, pointer);
+        pictures.spend(static_cast<std::uint64_t>(size.width) * static_cast<std::uint64_t>(size.height),
+                       texel_bytes(depth), pointer);
     }
     check_decoded_total(encoded, document.file);
     return encoded;
@@ -199,7 +223,8 @@ void decode(const std::vector<Encoded>& encoded, const std::string& file, std::v
     parallel_for(encoded.size(), [&](std::size_t i) {
         try {
             images[encoded[i].image] = read_at(file, encoded[i].image, [&] {
-                return std::make_shared<const image::ByteImage>(image::decode_byte_image(encoded[i].bytes.bytes, ""));
+                return std::make_shared<const image::ByteImage>(
+                    image::decode_byte_image(encoded[i].bytes.bytes, "", encoded[i].depth));
             });
         } catch (const Error&) {
             refusals[i] = std::current_exception();
@@ -254,7 +279,8 @@ void import_images(const GltfSource& source, const GltfDocument& document, Memor
                    std::vector<std::filesystem::path>* read_files, ImportedScene& scene) {
     const auto white = std::make_shared<const image::ByteImage>(image::ByteImage{1, 1, {255, 255, 255, 255}});
     scene.images.assign(document.model.images.size(), white);
-    decode(fetch(source, document, budget, read_files), document.file, scene.images);
+    const std::vector<bool> is_data = images_of_extensions(document.model, scene.materials);
+    decode(fetch(source, document, is_data, budget, read_files), document.file, scene.images);
     for (const gltf::Texture& texture : document.model.textures) {
         ImportedTexture& added = scene.textures.emplace_back(sampler_settings(document.model, texture));
         added.image = texture.source >= 0 ? static_cast<std::size_t>(texture.source) : scene.images.size();

@@ -9,9 +9,11 @@
 #include <vector>
 
 #include "engine/core/json_schema.h"
+#include "engine/core/log.h"
 #include "engine/image/image.h"
 #include "engine/lighting/probe_recipe.h"
 #include "engine/lighting/procedural_probe.h"
+#include "engine/scene/gltf_import.h"
 #include "engine/scene/imported_scene.h"
 #include "modules/diffraction/asset/cooked_material.h"
 #include "modules/diffraction/asset/gltf_extension.h"
@@ -19,6 +21,7 @@
 #include "modules/diffraction/asset/material.h"
 #include "modules/diffraction/evaluate/budget.h"
 #include "modules/diffraction/evaluate/error_measure.h"
+#include "modules/diffraction/foil/card.h"
 
 namespace rowland::diffraction {
 
@@ -155,7 +158,11 @@ std::string part_key(const cook::SceneExtension& extension) {
         const auto& textures = extension.scene.textures;
         if (index.is_number_integer() && index >= 0 && index < textures.size())
             if (const auto& image = extension.scene.images[textures[index.get<std::size_t>()].image])
-                key += ' ' + Hasher().bytes(std::as_bytes(std::span(image->rgba))).digest().hex();
+                key += ' ' + Hasher()
+                                 .bytes(std::as_bytes(std::span(image->rgba)))
+                                 .bytes(std::as_bytes(std::span(image->rgba16)))
+                                 .digest()
+                                 .hex();
     }
     return key;
 }
@@ -246,10 +253,50 @@ cook::GltfExtension gltf_extension() {
     return extension;
 }
 
+constexpr std::uint64_t kMaximumPictureFile = std::uint64_t{256} << 20;
+
+std::vector<std::byte> cook_foil(cook::Context& context) {
+    const std::string file = context.source().string();
+    const foil::Recipe recipe = foil::parse_foil_recipe(context.read_json(context.source()), file);
+    foil::NamedPictures pictures;
+    for (const std::string& name : foil::picture_names(recipe)) {
+        const std::filesystem::path path = context.beside_source(name);
+        pictures[name] = {path.string(), context.read(path, kMaximumPictureFile, "scale the picture down")};
+    }
+    Progress progress("foil", foil::kCardSteps);
+    return foil::make_card(recipe, pictures, file, [&] { progress.advance(); });
+}
+
+cook::AssetType foil_type() {
+    cook::AssetType type;
+    type.name = foil::kFoilAssetType;
+    type.extension = ".glb";
+    type.in_container = false;
+    type.recognises = [](const std::filesystem::path&, const nlohmann::json* json) {
+        return json != nullptr && foil::is_foil_recipe(*json);
+    };
+    type.cook = cook_foil;
+    type.schema = [] {
+        return json_schema("Rowland foil recipe", [](JsonReader& json) { foil::parse_foil_recipe(json); });
+    };
+    type.check = [](cook::Context& context) { cook_foil(context); };
+    type.describe = [](std::span<const std::byte> payload, const std::string& file) {
+        const std::vector<std::string> extensions = {kGltfExtension};
+        const scene::ImportedScene card = scene::load_glb(payload, file, extensions);
+        std::string text = "format: glTF 2.0 binary\n";
+        for (const scene::MaterialDescription& material : card.materials)
+            if (const auto found = material.extensions.find(kGltfExtension); found != material.extensions.end())
+                text += "foil: " + describe(parse_gltf_extension(found->second, file, read_nothing, "")) + "\n";
+        return text;
+    };
+    return type;
+}
+
 }  // namespace
 
 void register_module(cook::Registry& registry) {
     registry.add_gltf_extension(gltf_extension());
+    registry.add(foil_type());
     cook::AssetType type;
     type.name = kMaterialAssetType;
     type.version = kMaterialAssetVersion;

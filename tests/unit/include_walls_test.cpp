@@ -37,6 +37,8 @@ std::vector<Wall> walls() {
         {"modules/diffraction/evaluate/", kGraphics},
         {"modules/diffraction/representations/",
          with_graphics({"modules/diffraction/runtime/", "modules/diffraction/reference/"})},
+        {"modules/diffraction/foil/", with_graphics({"modules/diffraction/reference/", "modules/diffraction/bake/",
+                                                     "modules/diffraction/evaluate/", "engine/cook/"})},
         {"modules/diffraction/portable/", with_graphics({"modules/diffraction/reference/"})},
         {"modules/diffraction/runtime/", {"modules/diffraction/reference/", "modules/diffraction/evaluate/"}},
         {"modules/thin_film/", {"modules/diffraction/"}},

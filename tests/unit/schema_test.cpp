@@ -20,6 +20,7 @@
 #include "engine/scene/mesh_recipe.h"
 #include "modules/asset_types.h"
 #include "modules/diffraction/asset/gltf_extension.h"
+#include "modules/diffraction/foil/recipe.h"
 #include "modules/diffraction/model/profile.h"
 #include "modules/thin_film/asset/film_material.h"
 #include "tests/support/files.h"
@@ -216,6 +217,40 @@ bool crosses_members(const json& document) {
 bool names_another_file(const json& document) {
     const json& profile = document["grating"]["profile"];
     return profile["type"] == "table" && profile["file"] != "t.csv";
+}
+
+/// What a foil's members forbid each other.
+bool crosses_foil(const json& document) {
+    const json foil = document.value("foil", json::object());
+    const json card = document.value("card", json::object());
+    const std::string type = foil.value("type", "");
+    const bool freely = foil.contains("spread_deg") && (type == "pillars" || type == "lens" || type == "two_pictures");
+    const double width = card.value("width_mm", 63.0);
+    const double height = card.value("height_mm", 88.0);
+    const double shorter = std::min(width, height);
+    return freely || type == "two_pictures" || 2.0 * card.value("corner_mm", 3.0) > shorter ||
+           std::max(width, height) > 20.0 * shorter;
+}
+
+TEST(Schema, OfFoilsAgreesWithTheParser) {
+    const auto card = [](const std::string& foil) {
+        return json::parse(R"({"artwork": "a.png", "foil": )" + foil + "}");
+    };
+    const Documents documents = {
+        json::parse(R"({"artwork": "a.png", "mask": "m.png", "ink": "covers", "under": "metal", "texture_px": 600,
+                        "lacquer": {"gloss": true, "tint": [1, 0.5, 0]},
+                        "card": {"width_mm": 60, "height_mm": 80, "thickness_mm": 0.3, "corner_mm": 2, "back": "b"}})"),
+        card(
+            R"({"type": "pillars", "band_mm": 8, "pitch_range": 1.5, "direction_deg": 3, "scale": 1, "groove_um": 1})"),
+        card(R"({"type": "tiles", "size_mm": 8, "directions": 5, "spread_deg": 3, "seed": 7})"),
+        card(R"({"type": "radial", "grooves": "rays", "centre": [0.5, 1]})"),
+        card(R"({"type": "two_pictures", "picture_a": "a", "picture_b": "b", "tilts_deg": [-10, 10], "lamp_deg": 40})"),
+        card(R"({"type": "lens", "focal_mm": 50})"),
+        card(R"({"type": "own", "drawing": "d.png", "smooth_mm": 1})"),
+    };
+    expect_agreement(
+        schema_of("foil"), documents,
+        [](const json& document) { diffraction::foil::parse_foil_recipe(document, "card.json"); }, crosses_foil);
 }
 
 TEST(Schema, OfMaterialsAgreesWithTheParser) {

@@ -30,15 +30,16 @@ bool GroovePitches::vary() const {
 }
 
 GroovePitches groove_pitches(const image::ByteImage& texture) {
-    int smallest = 256;
-    int largest = 0;
+    double smallest = 2.0;
+    double largest = 0.0;
     for (std::size_t i = 1; i < texture.rgba.size(); i += 4) {
-        if (texture.rgba[i] == 0) continue;
-        smallest = std::min<int>(smallest, texture.rgba[i]);
-        largest = std::max<int>(largest, texture.rgba[i]);
+        const double half_pitch = texture.value(i);
+        if (half_pitch == 0.0) continue;
+        smallest = std::min(smallest, 2.0 * half_pitch);
+        largest = std::max(largest, 2.0 * half_pitch);
     }
-    if (largest == 0) return {};
-    return {.smallest = 2.0 * smallest / 255.0, .largest = 2.0 * largest / 255.0};
+    if (largest == 0.0) return {};
+    return {.smallest = smallest, .largest = largest};
 }
 
 std::optional<Refusal> groove_refusal(const Material& material, const GroovePitches& pitches) {

@@ -48,16 +48,15 @@ GrooveMap::GrooveMap(const GrooveTexture& use, render::SurfaceTextures& textures
     sparkle_ = use.sparkle;
     sampling_ = scene.textures[static_cast<std::size_t>(use.index)];
     image_ = scene.images[sampling_.image];
-    for (std::size_t i = 1; i < image_->rgba.size(); i += 4) gaps_ = gaps_ || image_->rgba[i] == 0;
+    for (std::size_t i = 1; i < image_->rgba.size(); i += 4) gaps_ = gaps_ || image_->value(i) == 0.0;
     pitches_ = groove_pitches(*image_);
 }
 
 double GrooveMap::red(int column, int row) const {
     const int x = wrapped(column, image_->width, sampling_.wrap_s);
     const int y = wrapped(row, image_->height, sampling_.wrap_t);
-    return image_->rgba[4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(image_->width) +
-                             static_cast<std::size_t>(x))] /
-           255.0;
+    return image_->value(
+        4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(image_->width) + static_cast<std::size_t>(x)));
 }
 
 double GrooveMap::rotation(const glm::vec2& uv) const {
@@ -133,10 +132,10 @@ std::uint16_t normalised(double value) {
     return static_cast<std::uint16_t>(std::lround(65535.0 * value));
 }
 
-std::array<std::uint16_t, 4> moments_of(std::uint8_t red, std::uint8_t green, const GrooveMomentUse& use) {
-    if (green == 0) return {normalised(0.5), normalised(0.5), 0, 0};
-    const double angle = (use.even ? 2.0 : 1.0) * std::numbers::pi * red / 255.0;
-    const double inverse = use.smallest_pitch / (2.0 * green / 255.0);
+std::array<std::uint16_t, 4> moments_of(double red, double green, const GrooveMomentUse& use) {
+    if (green == 0.0) return {normalised(0.5), normalised(0.5), 0, 0};
+    const double angle = (use.even ? 2.0 : 1.0) * std::numbers::pi * red;
+    const double inverse = std::min(use.smallest_pitch / (2.0 * green), 1.0);
     return {normalised(0.5 + 0.5 * std::cos(angle)), normalised(0.5 + 0.5 * std::sin(angle)), normalised(inverse),
             normalised(use.gaps ? 1.0 : inverse * inverse)};
 }
@@ -147,7 +146,8 @@ std::vector<std::uint16_t> groove_moments(const image::ByteImage& image, const G
     std::vector<std::uint16_t> moments;
     moments.reserve(image.rgba.size());
     for (std::size_t i = 0; i < image.rgba.size(); i += 4)
-        for (const std::uint16_t moment : moments_of(image.rgba[i], image.rgba[i + 1], use)) moments.push_back(moment);
+        for (const std::uint16_t moment : moments_of(image.value(i), image.value(i + 1), use))
+            moments.push_back(moment);
     return moments;
 }
 

@@ -120,20 +120,23 @@ vec3 background_weight() { return vec3(1.0); }  // over the transmitted side
 #include "engine/render/shaders/shading.glsl"
 
 // A cover dims all that lies under it, and reflects the rest like a mirror, on the side that is seen. Light that order
-// 0 mirrors passes it twice.
-MaterialTerms layer_terms(vec3 diffracted_sum) {
+// 0 mirrors passes it twice. `coverage`: the fraction of the pixel that has a grating; the layer has the rest for
+// itself.
+MaterialTerms layer_terms(vec3 diffracted_sum, float coverage) {
+    vec3 base = mix(vec3(1.0), base_weight, coverage);
+    vec3 mirror = coverage * mirror_weight;
 #ifdef COVER
     float passed = cover_transmittance(abs(dot(normalize(world_normal), to_eye())));
-    return MaterialTerms(passed * base_weight, vec3(1.0 - passed) + passed * passed * mirror_weight,
-                         passed * diffracted_sum);
+    return MaterialTerms(passed * base, vec3(1.0 - passed) + passed * passed * mirror, passed * diffracted_sum);
 #else
-    return MaterialTerms(base_weight, mirror_weight, diffracted_sum);
+    return MaterialTerms(base, mirror, diffracted_sum);
 #endif
 }
 
 void main() {
     read_screen_visibility();
     vec3 sum = vec3(0.0);
+    float coverage = 1.0;
 #ifdef VERTEX_SHADED
     sum = diffracted;
 #if !defined(DIRECTIONAL_LIGHTS) || (defined(SHADOWED_AT_PIXELS) && !defined(SEVERAL_DIRECTIONAL_LIGHTS))
@@ -148,6 +151,9 @@ void main() {
 #endif
 #if !defined(VERTEX_SHADED) || defined(LIGHTS_AT_PIXELS)
     GrooveView view = groove_view();
+#ifdef GROOVE_GAPS
+    coverage = view.coverage;
+#endif
     if (view.direction.z > 0.0 && view.pitch > 0.0) {
 #ifdef GROOVE_MAP
         int parts = groove_parts(view);
@@ -163,5 +169,5 @@ void main() {
     }
     prepare_lights(view);
 #endif
-    write_surface(layer_terms(sum));
+    write_surface(layer_terms(sum, coverage));
 }

@@ -101,6 +101,64 @@ TEST(ByteImage, SixteenBitsAreCutNotReencoded) {
     EXPECT_THAT(decode_byte_image(bytes, "a.png").rgba, testing::ElementsAre(0x80, 0x80, 0x80, 255));
 }
 
+TEST(ByteImage, SixteenBitsAreKeptWhereTheyAreAskedFor) {
+    std::vector<std::uint16_t> rgb(std::size_t{300} * 5 * 3);
+    for (std::size_t i = 0; i < rgb.size(); ++i) rgb[i] = static_cast<std::uint16_t>(i * 40503);
+    for (const PngEffort effort : {PngEffort::Small, PngEffort::Fast}) {
+        const std::vector<std::byte> bytes = encode_png(300, 5, 3, rgb, effort);
+        EXPECT_EQ(bytes, encode_png(300, 5, 3, rgb, effort));
+        const ByteImage image = decode_byte_image(bytes, "a.png", Depth::OfFile);
+        ASSERT_EQ(image.rgba16.size(), std::size_t{300} * 5 * 4);
+        for (std::size_t i = 0; i < rgb.size(); ++i) {
+            ASSERT_EQ(image.rgba16[i / 3 * 4 + i % 3], rgb[i]);
+            ASSERT_EQ(image.value(i / 3 * 4 + i % 3), rgb[i] / 65535.0);
+        }
+        EXPECT_EQ(image.rgba16[3], 65535);
+        // The 8 bits are the same, whether 16 were asked for or not.
+        const ByteImage cut = decode_byte_image(bytes, "a.png");
+        EXPECT_EQ(cut.rgba, image.rgba);
+        EXPECT_TRUE(cut.rgba16.empty());
+    }
+}
+
+TEST(ByteImage, EightBitsStayEightWhereSixteenAreAskedFor) {
+    const auto rgb = picture();
+    const ByteImage image = decode_byte_image(encoded_png(3, 2, PNG_FORMAT_RGB, rgb.data()), "a.png", Depth::OfFile);
+    EXPECT_TRUE(image.rgba16.empty());
+    EXPECT_EQ(image.value(4), 0.0);
+    EXPECT_EQ(image.value(5), 1.0);
+    EXPECT_EQ(image.value(12), 10 / 255.0);
+}
+
+TEST(ByteImage, InterlacedPicturesAreWhole) {
+    std::vector<std::uint8_t> bytes;
+    png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
+    png_infop info = png_create_info_struct(png);
+    png_set_write_fn(
+        png, &bytes,
+        [](png_structp of, png_bytep data, std::size_t size) {
+            auto* to = static_cast<std::vector<std::uint8_t>*>(png_get_io_ptr(of));
+            to->insert(to->end(), data, data + size);
+        },
+        nullptr);
+    png_set_IHDR(png, info, 3, 2, 8, PNG_COLOR_TYPE_RGB, PNG_INTERLACE_ADAM7, PNG_COMPRESSION_TYPE_DEFAULT,
+                 PNG_FILTER_TYPE_DEFAULT);
+    png_write_info(png, info);
+    auto rgb = picture();
+    std::array<png_bytep, 2> rows = {rgb.data(), rgb.data() + 9};
+    png_write_image(png, rows.data());
+    png_write_end(png, nullptr);
+    png_destroy_write_struct(&png, &info);
+    const ByteImage image = decode_byte_image(std::as_bytes(std::span(bytes)), "a.png");
+    for (std::size_t i = 0; i < rgb.size(); ++i) EXPECT_EQ(image.rgba[i / 3 * 4 + i % 3], rgb[i]);
+}
+
+TEST(ByteImage, JpegsOfInksAreRefusedByName) {
+    const std::vector<std::uint8_t> cmyk(std::size_t{16} * 16 * 4, 90);
+    EXPECT_THAT(test::message_of([&] { decode_byte_image(test::encoded_cmyk_jpeg(16, 16, cmyk), "a.jpg"); }),
+                HasSubstr("a.jpg: a JPEG in CMYK; expected RGB or grey; convert the image to sRGB"));
+}
+
 TEST(ByteImage, GammaOfTheFileIsIgnored) {
     const auto rgb = picture();
     const auto plain = encoded_png(3, 2, PNG_FORMAT_RGB, rgb.data());

@@ -6,12 +6,14 @@
 
 namespace rowland::test {
 
-std::vector<std::byte> encoded_jpeg(int width, int height, std::span<const std::uint8_t> rgb) {
+namespace {
+
+std::vector<std::byte> encoded(int width, int height, int format, std::span<const std::uint8_t> values) {
     tjhandle encoder = tjInitCompress();
     unsigned char* data = nullptr;
     unsigned long size = 0;
-    const int status =
-        tjCompress2(encoder, rgb.data(), width, 0, height, TJPF_RGB, &data, &size, TJSAMP_444, 100, TJFLAG_ACCURATEDCT);
+    const int status = tjCompress2(encoder, values.data(), width, 0, height, format, &data, &size, TJSAMP_444, 100,
+                                   TJFLAG_ACCURATEDCT);
     std::vector<std::byte> bytes;
     if (status == 0) {
         const auto* begin = reinterpret_cast<const std::byte*>(data);
@@ -21,6 +23,16 @@ std::vector<std::byte> encoded_jpeg(int width, int height, std::span<const std::
     tjDestroy(encoder);
     if (status != 0) throw std::runtime_error("the test's JPEG could not be encoded");
     return bytes;
+}
+
+}  // namespace
+
+std::vector<std::byte> encoded_jpeg(int width, int height, std::span<const std::uint8_t> rgb) {
+    return encoded(width, height, TJPF_RGB, rgb);
+}
+
+std::vector<std::byte> encoded_cmyk_jpeg(int width, int height, std::span<const std::uint8_t> cmyk) {
+    return encoded(width, height, TJPF_CMYK, cmyk);
 }
 
 }  // namespace rowland::test

@@ -109,12 +109,16 @@ vec3 grating_surface(vec3 base, vec3 mirrored) {
 #ifdef ROWLAND_DIFFRACTION_ONLY
     return passed * diffracted;
 #endif
-#ifdef COVER
-    vec3 mirror = vec3(1.0 - passed) + passed * passed * mirror_weight;
+#ifdef GROOVE_MAP
+    float coverage = lit_view.coverage;  // the layer has the rest of the pixel for itself
 #else
-    vec3 mirror = mirror_weight;
+    float coverage = 1.0;
 #endif
-    return passed * (base_weight * base + diffracted) + mirror * mirrored;
+    vec3 mirror = coverage * mirror_weight;
+#ifdef COVER
+    mirror = vec3(1.0 - passed) + passed * passed * mirror;
+#endif
+    return passed * (mix(vec3(1.0), base_weight, coverage) * base + diffracted) + mirror * mirrored;
 }
 
 #ifdef RE_Direct  // three's

@@ -1,7 +1,7 @@
 // src/glsl/surface.vert.glsl and src/glsl/surface.frag.glsl in TSL: the diffraction term for MeshPhysicalNodeMaterial.
 import {
-    abs, attribute, cameraWorldMatrix, cross, determinant, dot, float, Fn, If, mat3, max, modelNormalMatrix, modelWorldMatrix,
-    normalGeometry, normalize, normalLocal, positionView, select, uv, varying, vec3, vec4,
+    abs, attribute, cameraWorldMatrix, cross, determinant, dot, float, Fn, If, mat3, max, mix, modelNormalMatrix,
+    modelWorldMatrix, normalGeometry, normalize, normalLocal, positionView, select, uv, varying, vec3, vec4,
 } from "three/tsl";
 import type { BufferGeometry, Camera, OrthographicCamera } from "three";
 import { arc } from "./arc.js";
@@ -128,10 +128,12 @@ export function surface(program: Program, geometry: BufferGeometry, vertex: Pose
         else add_probe_radiance(diffracted, lit_view);
         const passed = cover_transmittance(abs(lit_view.direction.z)).toVar();
         if (program.has("ROWLAND_DIFFRACTION_ONLY")) return passed.mul(diffracted);
-        const mirror_weight = program.vec3("mirror_weight");
+        const coverage = lit_view.map ? lit_view.map.coverage : float(1); // the layer has the rest of the pixel for itself
+        const mirror_weight = program.vec3("mirror_weight").mul(coverage);
+        const base_weight = mix(vec3(1), program.vec3("base_weight"), coverage);
         const mirror = program.has("COVER")
             ? vec3(float(1).sub(passed)).add(mirror_weight.mul(passed.mul(passed))) : mirror_weight;
-        return passed.mul(base.mul(program.vec3("base_weight")).add(diffracted)).add(mirror.mul(mirrored));
+        return passed.mul(base.mul(base_weight).add(diffracted)).add(mirror.mul(mirrored));
     }
 
     return { add_lamp, grating_surface };

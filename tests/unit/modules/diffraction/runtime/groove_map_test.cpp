@@ -47,5 +47,19 @@ TEST(GrooveMoments, HoldTheCoverageWhereThereAreGaps) {
     EXPECT_EQ(moments[7], 65535);
 }
 
+TEST(GrooveMoments, AreThoseOfSixteenBitsWhereThePictureHasThem) {
+    image::ByteImage image = grooves({{128, 128}});
+    image.rgba16 = {32900, 32768, 0, 65535};
+    const auto moments = groove_moments(image, {.even = false, .smallest_pitch = 2.0 * 32768 / 65535.0});
+    EXPECT_NEAR(moments[0] / 65535.0, 0.5 + 0.5 * std::cos(3.14159265 * 32900 / 65535.0), 1e-5);
+    EXPECT_EQ(moments[2], 65535);
+    const GroovePitches pitches = groove_pitches(image);
+    EXPECT_EQ(pitches.smallest, 2.0 * 32768 / 65535.0);
+    // 16 bits whose upper 8 are 0 are a grating all the same.
+    image.rgba = {128, 0, 0, 255};
+    image.rgba16 = {32900, 90, 0, 65535};
+    EXPECT_GT(groove_moments(image, {.smallest_pitch = 2.0 * 90 / 65535.0})[2], 0);
+}
+
 }  // namespace
 }  // namespace rowland::diffraction
