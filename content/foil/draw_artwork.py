@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""draw_artwork.py [FOLDER]: draws again the pictures of the six foil cards, beside this script or in FOLDER. Needs Debian's
-python3-cairo, python3-numpy and fonts-urw-base35; the same versions of these give the same bytes."""
+"""draw_artwork.py [FOLDER]: draws again the pictures of the six foil cards, beside this script or in FOLDER. Needs
+Debian's python3-cairo, python3-numpy and fonts-urw-base35; the same versions of these give the same bytes."""
 import pathlib, sys
 
 from emblems import day_and_night, moon_picture, scarab, sun_picture

@@ -128,7 +128,8 @@ def day_and_night(folder):
     foil(c)
     disc(c, x, y, 21.7)
     c.fill()
-    frame(c, "IV", "DAY & NIGHT", "KINEGRAM  ·  TILT: TWO PICTURES IN ONE FOIL", wine, cream, lambda c: ink(c, "#e7bd5c"))
+    frame(c, "IV", "DAY & NIGHT", "KINEGRAM  ·  TILT: TWO PICTURES IN ONE FOIL", wine, cream,
+          lambda c: ink(c, "#e7bd5c"))
     save(c, folder / "day_and_night.png")
 
 
@@ -142,7 +143,8 @@ def feather(c, x, y, inner, outer, angle, half_angle, colours):
         c.new_sub_path()
         c.line_to(*polar(x, y, start, angle - spread))
         c.line_to(*polar(x, y, outer - tip - inset, angle - spread))
-        c.arc(*polar(x, y, outer - tip - inset, angle), (outer - tip) * math.sin(spread), angle - TAU / 4, angle + TAU / 4)
+        c.arc(*polar(x, y, outer - tip - inset, angle), (outer - tip) * math.sin(spread),
+              angle - TAU / 4, angle + TAU / 4)
         c.line_to(*polar(x, y, start, angle + spread))
         c.close_path()
         ink(c, colour)
@@ -168,7 +170,8 @@ def scarab(folder):
     for side in (1, -1):
         c.save()
         c.scale(side, 1)
-        tiers = ((19.0, 25.0, 15, (lapis, turquoise)), (12.5, 19.0, 12, (turquoise, cream)), (6.0, 12.5, 8, (carnelian, cream)))
+        tiers = ((19.0, 25.0, 15, (lapis, turquoise)), (12.5, 19.0, 12, (turquoise, cream)),
+                 (6.0, 12.5, 8, (carnelian, cream)))
         for inner, outer, count, colours in tiers:
             step = 1.62 / count
             for i in range(count):
@@ -182,17 +185,20 @@ def scarab(folder):
                     c.line_to(*polar(px, py, 5.0, angle + half))
                     paint_with(c)
                     c.fill()
-                feather(c, px, py, inner - 6.0 if inner > 6 else 5.2, reach - 0.05, angle, step * 0.5 - 0.24 / reach, colours)
+                feather(c, px, py, inner - 6.0 if inner > 6 else 5.2, reach - 0.05, angle,
+                        step * 0.5 - 0.24 / reach, colours)
         for colour, width in ((ground, 2.3), (None, 1.7), (lapis, 1.0)):  # legs
             ink(c, colour) if colour else foil(c)
-            for leg in (((2.6, 39), (6.0, 36.5), (7.6, 31), (5.2, 27.2)), ((3.2, 54), (7.4, 56), (7.0, 61), (3.4, 63.5))):
+            for leg in (((2.6, 39), (6.0, 36.5), (7.6, 31), (5.2, 27.2)),
+                        ((3.2, 54), (7.4, 56), (7.0, 61), (3.4, 63.5))):
                 c.move_to(*leg[0])
                 c.curve_to(*leg[1], *leg[2], *leg[3])
                 stroke(c, width)
         c.restore()
     for grown, body, shell in ((0.95, ground, ground), (0.5, None, None), (0.0, lapis, turquoise)):
         ink(c, body) if body else foil(c)
-        for cx, cy, rx, ry, colour in ((0, 51.0, 6.4, 8.6, body), (0, 41.6, 5.4, 4.2, shell), (0, 36.6, 3.3, 2.4, body)):
+        for cx, cy, rx, ry, colour in ((0, 51.0, 6.4, 8.6, body), (0, 41.6, 5.4, 4.2, shell),
+                                       (0, 36.6, 3.3, 2.4, body)):
             c.save()
             c.translate(cx, cy)
             c.scale(rx + grown, ry + grown)
@@ -211,15 +217,17 @@ def scarab(folder):
         for k in range(3):
             line(c, [(side * (0.7 + 0.8 * k), 35.2 + 0.3 * k), (side * (0.9 + 0.9 * k), 33.4 + 0.5 * k)])
     stroke(c, 0.26)
-    for radius, colour in ((3.9, ground), (3.5, None), (2.9, carnelian), (1.9, None), (1.5, ground)):  # the ring it holds
+    # The ring that it holds.
+    for radius, colour in ((3.9, ground), (3.5, None), (2.9, carnelian), (1.9, None), (1.5, ground)):
         ink(c, colour) if colour else foil(c)
         disc(c, 0, 65.4, radius)
         c.fill()
     c.translate(-x, 0)
     for i in range(-1, 10):  # lotus
-        fx, fy, tall = i * 7.0, 75.9, i % 2 == 1
+        fx, fy, tall = 31.5 + (i - 4) * 7.0, 75.9, i % 2 == 0
         for k, angle in enumerate(np.linspace(-0.95, 0.95, 5)):
-            for colour, size in ((ground, 1.0), (None, 0.93), ((turquoise, cream, carnelian, cream, turquoise)[k], 0.78)):
+            petal = (turquoise, cream, carnelian, cream, turquoise)[k]
+            for colour, size in ((ground, 1.0), (None, 0.93), (petal, 0.78)):
                 ink(c, colour) if colour else foil(c)
                 c.save()
                 c.translate(fx, fy)

@@ -134,8 +134,8 @@ def heavens(folder):
     c.clip()
     c.translate(x, y)
     c.rotate(turn)
-    bands = ["#f7d3a8", "#ef9a75", "#fdebd0", "#e4716a", "#f6c79a", "#fdebd0", "#d1556a", "#f2a07a", "#f7d3a8", "#b04a72",
-             "#e4716a", "#8a3f7c"]
+    bands = ["#f7d3a8", "#ef9a75", "#fdebd0", "#e4716a", "#f6c79a", "#fdebd0", "#d1556a", "#f2a07a", "#f7d3a8",
+             "#b04a72", "#e4716a", "#8a3f7c"]
     xs = np.linspace(-radius, radius, 160)
     edge = -radius
     for i, colour in enumerate(bands):
@@ -181,7 +181,8 @@ def heavens(folder):
         hills = noise((2, 200), (1, 9), seed)[0] * 3 + noise((2, 200), (1, 40), seed)[0] * 0.5
         line(c, [(0, 80), *zip(xs, base - hills + 0.006 * (xs - 31.5) ** 2), (WIDTH, 80)], True)
         c.fill()
-    for cx, cy, size in ((14, 72.6, 4.4), (44.5, 73.4, 5.6), (30, 74.6, 2.6), (53.5, 70.6, 2.0), (25, 71.3, 1.6), (35.4, 70.8, 1.0)):
+    for cx, cy, size in ((14, 72.6, 4.4), (44.5, 73.4, 5.6), (30, 74.6, 2.6),
+                         (53.5, 70.6, 2.0), (25, 71.3, 1.6), (35.4, 70.8, 1.0)):
         crater(c, cx, cy, size, 0.3, night, "#7a62b8")
     frame(c, "II", "THE HEAVENS", "COSMOS  ·  CIRCLES OF GROOVES 1 µm APART", night, cream)
     save(c, folder / "heavens.png")
@@ -216,7 +217,7 @@ def crystal(folder):
             reach = length * (0.02 + 0.62 * math.sin(math.pi * t**0.75) * (1 - 0.5 * t)) * (1.0, 0.72)[i % 2]
             if reach > 0.8:
                 for side in (-1, 1):
-                    branch(*polar(bx, by, length * t, angle), angle + side * math.pi / 3, reach, width * 0.62, level + 1)
+                    branch(*polar(bx, by, length * t, angle), angle + side * TAU / 6, reach, 0.62 * width, level + 1)
 
     for arm in range(6):
         branch(x, y, arm * TAU / 6 + TAU / 4, 26.5, 0.95, 0)
@@ -225,7 +226,8 @@ def crystal(folder):
         for bx, by, ex, ey, width in segments:
             line(c, [(bx, by), (ex, ey)])
             stroke(c, width + wider * min(1, 0.45 + width))
-    for size, colour in ((6.2, navy), (5.6, "#ffffff"), (4.7, blue), (4.2, ice), (3.3, "#ffffff"), (2.6, blue), (2.1, None)):
+    for size, colour in ((6.2, navy), (5.6, "#ffffff"), (4.7, blue), (4.2, ice), (3.3, "#ffffff"), (2.6, blue),
+                         (2.1, None)):
         line(c, [polar(x, y, size, k * TAU / 6 + TAU / 4) for k in range(6)], True)
         ink(c, colour) if colour else foil(c)
         c.fill()
@@ -234,10 +236,12 @@ def crystal(folder):
         line(c, [(x, y), polar(x, y, 4.2, k * TAU / 6 + TAU / 4)])
         stroke(c, 0.3)
     chance = random.Random(11)
-    for _ in range(46):  # snow
+    flakes = []
+    for _ in range(70):  # snow
         sx, sy = chance.uniform(6, 57), chance.uniform(5.5, 73)
-        if math.hypot(sx - x, (sy - y) * 0.8) < 25:
+        if math.hypot(sx - x, (sy - y) * 0.8) < 25 or any(math.hypot(sx - a, sy - b) < 3.2 for a, b in flakes):
             continue
+        flakes.append((sx, sy))
         size = chance.choice((0.25, 0.35, 0.5, 1.1, 1.5))
         ink(c, chance.choice((ice, "#ffffff")))
         if size < 1:
@@ -285,7 +289,8 @@ def foam(c, crest, hollow, size, seed, edge):
     pearls = []
     for curve, begin, away in ((crest, 30, -1), (hollow, 100, 1)):
         for i in range(begin, len(curve), 2):
-            grow = size * (0.3 + (i - begin) / (len(curve) - begin) * (1.25 if away < 0 else 0.9)) * chance.uniform(0.8, 1.2)
+            grow = 0.3 + (i - begin) / (len(curve) - begin) * (1.25 if away < 0 else 0.9)
+            grow *= size * chance.uniform(0.8, 1.2)
             dx, dy = (curve[i] - curve[i - 2]) / max(math.hypot(*(curve[i] - curve[i - 2])), 1e-3)
             pearls.append((curve[i][0] - away * dy * 0.3, curve[i][1] + away * dx * 0.3, grow))
             if chance.random() < 0.45:
@@ -317,7 +322,8 @@ def wave(folder):
     water = lambda c: glaze(c, "#3f9fd0", 0.28)
     crest, hollow = breaker(c, [paint(teal), water, paint(blue), water] * 3, SMALL[0], SMALL[1])
     foam(c, crest, hollow, 0.62, 5, indigo)
-    crest, hollow = breaker(c, [paint(indigo), water, paint(blue), water, paint(indigo), water, paint(teal), water] * 2, (0, 0), 1)
+    stripes = [paint(indigo), water, paint(blue), water, paint(indigo), water, paint(teal), water]
+    crest, hollow = breaker(c, stripes * 2, (0, 0), 1)
     foam(c, crest, hollow, 1.15, 4, indigo)
     for i, (x, y) in enumerate(scales()):
         for radius, paint_with in ((1.0, paint(cream)), (0.95, paint(indigo)), (0.87, water), (0.66, paint(blue)),

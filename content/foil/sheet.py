@@ -1,4 +1,4 @@
-"""Drawing for print: a card as a sheet of ink over foil, in millimetres, with y down. cairo's operators say what is ink."""
+"""Drawing for print: a card as a sheet of ink over foil. Lengths are millimetres, y points down, colours "#rrggbb"."""
 import math, struct, zlib
 
 import cairo
@@ -66,9 +66,9 @@ def save(c, file, palette_size=256):
 
     head = struct.pack(">IIBBBBB", rows.shape[1], rows.shape[0], 8, 3, 0, 0, 0)
     file.write_bytes(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", head)
-                                + chunk(b"PLTE", palette[:, :3].astype(np.uint8).tobytes())
-                                + chunk(b"tRNS", palette[:, 3].astype(np.uint8).tobytes())
-                                + chunk(b"IDAT", zlib.compress(data, 9)) + chunk(b"IEND", b""))
+                     + chunk(b"PLTE", palette[:, :3].astype(np.uint8).tobytes())
+                     + chunk(b"tRNS", palette[:, 3].astype(np.uint8).tobytes())
+                     + chunk(b"IDAT", zlib.compress(data, 9)) + chunk(b"IEND", b""))
 
 
 def disc(c, x, y, radius):
@@ -93,9 +93,9 @@ def polar(x, y, radius, angle):
     return x + radius * math.cos(angle), y + radius * math.sin(angle)
 
 
-def text(c, words, x, y, size, family, tracking, bold=False):
-    """Centred, letter by letter."""
-    c.select_font_face(family, cairo.FONT_SLANT_NORMAL, cairo.FONT_WEIGHT_BOLD if bold else cairo.FONT_WEIGHT_NORMAL)
+def text(c, words, x, y, size, family, tracking):
+    """Centred, letter by letter, with this much space between them."""
+    c.select_font_face(family)
     c.set_font_size(size)
     widths = [c.text_extents(letter).x_advance for letter in words]
     x -= (sum(widths) + tracking * (len(words) - 1)) / 2
@@ -108,7 +108,7 @@ def text(c, words, x, y, size, family, tracking, bold=False):
 
 def panel(c, inset=0.0):
     """The picture's outline: notched corners, and a tab for the number at the top."""
-    left, right, top, bottom, notch, tab = 3.2 + inset, 59.8 - inset, 3.2 + inset, 75.6 - inset, 2.6 + inset, 4.0 + inset
+    notch, tab = 2.6 + inset, 4.0 + inset
     c.new_sub_path()
     c.arc_negative(3.2, 3.2, notch, math.acos(inset / notch), math.asin(inset / notch))
     reach = math.sqrt(tab**2 - inset**2)
