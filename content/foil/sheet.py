@@ -29,13 +29,13 @@ def ink(c, colour):
 
 
 def glaze(c, colour, opacity):
-    """What is drawn next is a tint of the foil. The opacity is less than a half: more hides the foil's grooves."""
+    """Later drawing tints the foil. The opacity is less than a half: more of it hides the grooves."""
     c.set_operator(cairo.OPERATOR_SOURCE)
     c.set_source_rgba(*(int(colour[i:i + 2], 16) / 255 for i in (1, 3, 5)), opacity)
 
 
 def foil(c):
-    """What is drawn next is left out of the ink."""
+    """Later drawing cuts holes into the ink, through which the foil shows."""
     c.set_operator(cairo.OPERATOR_CLEAR)
 
 
