@@ -3,7 +3,7 @@
 Debian's python3-cairo, python3-numpy and fonts-urw-base35; the same versions of these give the same bytes."""
 import pathlib, sys
 
-from emblems import day_and_night, moon_picture, scarab, sun_picture
+from emblems import day_and_night, pictures, scarab
 from landscapes import crystal, heavens, mountain, wave
 from sheet import HEIGHT, WIDTH, ink, rosette, save, sheet, star, stroke
 
@@ -29,7 +29,7 @@ def back(folder):
 
 def main():
     folder = pathlib.Path(sys.argv[1]) if len(sys.argv) > 1 else pathlib.Path(__file__).parent
-    for draw in (mountain, heavens, crystal, sun_picture, moon_picture, day_and_night, wave, scarab, back):
+    for draw in (mountain, heavens, crystal, day_and_night, pictures, wave, scarab, back):
         draw(folder)
 
 

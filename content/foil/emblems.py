@@ -1,80 +1,88 @@
 """The cards Day & Night and The Scarab."""
-import math, random
+import math
 
+import cairo
 import numpy as np
 
-from sheet import (TAU, TITLES, WIDTH, disc, foil, frame, ink, line, polar, rosette, save, sheet, star, stroke, text)
+from sheet import HEIGHT, TAU, TITLES, WIDTH, disc, foil, frame, ink, line, polar, rosette, save, sheet, stroke, text
+
+SUN = 34.4, 35.0  # in the hollow of the moon, since a texel of a kinegram seen from afar is of one picture only
 
 
-def sun_picture(folder):
-    c = sheet("#000000")
-    x, y, ink_on, ink_off = 31.5, 36.5, "#ffffff", "#000000"
-    ink(c, ink_on)
+def sun(c, on, off):
+    x, y = SUN
+    on(c)
     for k in range(16):
         a = k * TAU / 16 - TAU / 4
-        if k % 2 == 0:
-            line(c, [polar(x, y, 9.6, a - 0.17), polar(x, y, 20.6, a), polar(x, y, 9.6, a + 0.17)], True)
-            c.fill()
-            continue
-        sides = [[polar(x, y, 9.6 + 9.4 * t, a + side * 0.15 * (1 - t) + 0.09 * math.sin(t * 7.5))
+        reach = (7.6, 6.6)[k % 2]
+        sides = [[polar(x, y, 8.0 + reach * t, a + side * 0.155 * (1 - t) + 0.1 * (k % 2) * math.sin(t * 7.0))
                   for t in np.linspace(0, 1, 30)] for side in (-1, 1)]
         line(c, sides[0] + sides[1][::-1], True)
         c.fill()
-    disc(c, x, y, 9.0)
+    disc(c, x, y, 7.5)
     c.fill()
-    ink(c, ink_off)
-    disc(c, x, y, 8.1)
+    off(c)
+    c.save()
+    c.translate(x, y)
+    c.scale(0.86, 0.86)
+    disc(c, 0, 0, 7.8)
     stroke(c, 0.35)
-    for side in (-1, 1):  # a face: brows that run into the nose, eyes, cheeks
-        c.move_to(x + side * 5.3, y - 2.6)
-        c.curve_to(x + side * 4.2, y - 4.6, x + side * 1.2, y - 4.2, x + side * 0.95, y - 1.6)
-        c.line_to(x + side * 0.95, y + 0.7)
-        c.curve_to(x + side * 1.5, y + 1.6, x + side * 0.6, y + 1.9, x, y + 1.5)
+    for side in (-1, 1):  # a face: brows that run into the nose, eyes, cheeks, lips
+        c.move_to(side * 5.3, -2.6)
+        c.curve_to(side * 4.2, -4.6, side * 1.2, -4.2, side * 0.95, -1.6)
+        c.line_to(side * 0.95, 0.7)
+        c.curve_to(side * 1.5, 1.6, side * 0.6, 1.9, 0, 1.5)
         stroke(c, 0.42)
-        c.move_to(x + side * 1.7, y - 1.6)
-        c.curve_to(x + side * 2.6, y - 2.8, x + side * 4.0, y - 2.7, x + side * 4.7, y - 1.5)
-        c.curve_to(x + side * 3.8, y - 0.8, x + side * 2.5, y - 0.8, x + side * 1.7, y - 1.6)
+        c.move_to(side * 1.7, -1.6)
+        c.curve_to(side * 2.6, -2.8, side * 4.0, -2.7, side * 4.7, -1.5)
+        c.curve_to(side * 3.8, -0.8, side * 2.5, -0.8, side * 1.7, -1.6)
         stroke(c, 0.36)
-        disc(c, x + side * 3.15, y - 1.75, 0.62)
+        disc(c, side * 3.15, -1.75, 0.62)
         c.fill()
-        disc(c, x + side * 4.7, y + 1.9, 1.3)
+        disc(c, side * 4.7, 1.9, 1.3)
         stroke(c, 0.3)
-        c.move_to(x, y + 3.5)
-        c.curve_to(x + side * 0.5, y + 3.0, x + side * 1.2, y + 3.1, x + side * 2.6, y + 3.7)
-        c.curve_to(x + side * 1.4, y + 5.0, x + side * 0.5, y + 5.0, x, y + 5.0)
+        c.move_to(0, 3.5)
+        c.curve_to(side * 0.5, 3.0, side * 1.2, 3.1, side * 2.6, 3.7)
+        c.curve_to(side * 1.4, 5.0, side * 0.5, 5.0, 0, 5.0)
         stroke(c, 0.36)
-    c.move_to(x - 2.6, y + 3.7)
-    c.curve_to(x - 1, y + 4.1, x + 1, y + 4.1, x + 2.6, y + 3.7)
+    c.move_to(-2.6, 3.7)
+    c.curve_to(-1, 4.1, 1, 4.1, 2.6, 3.7)
     stroke(c, 0.36)
-    save(c, folder / "day.png")
+    c.restore()
 
 
-def moon_picture(folder):
-    c = sheet("#000000")
+def moon(c, on, off):
     x, y = 31.5, 36.5
-    ink(c, "#ffffff")
-    disc(c, x, y, 15.6)
+    on(c)
+    c.save()
+    disc(c, x, y, 20.3)
+    c.clip()
+    c.rectangle(0, 0, WIDTH, HEIGHT)
+    disc(c, *SUN, 17.0)
+    c.set_fill_rule(cairo.FILL_RULE_EVEN_ODD)
     c.fill()
-    ink(c, "#000000")
-    disc(c, x + 6.2, y - 2.4, 12.6)
-    c.fill()
-    for i in range(7):  # engraved along the crescent
+    c.restore()
+    off(c)
+    for i in range(8):  # engraved along the crescent
+        t = (i + 1) / 9
         c.new_sub_path()
-        c.arc(x + 0.75 * i, y - 0.28 * i, 14.5 - 0.35 * i, TAU * 0.22 + 0.05 * i, TAU * 0.60 - 0.05 * i)
-        stroke(c, 0.3)
-    stars = ((36.5, 31.5, 4.2), (42.5, 40.0, 2.6), (32.6, 40.6, 2.0), (46.0, 29.0, 1.7), (39.5, 22.0, 1.6),
-             (49.2, 36.5, 1.3), (29.8, 33.4, 1.2), (38.8, 45.4, 1.2), (14.2, 26.0, 1.5), (17.4, 50.5, 1.4))
-    for sx, sy, size in stars:
-        star(c, sx, sy, size, "#ffffff", "#ffffff")
-    chance = random.Random(2)
-    for _ in range(80):
-        radius, angle = 20.5 * math.sqrt(chance.random()), chance.uniform(0, TAU)
-        sx, sy = polar(x, y, radius, angle)
-        outside = math.hypot(sx - x, sy - y) > 16.4 or math.hypot(sx - x - 6.2, sy - y + 2.4) < 11.6
-        if outside and all(math.hypot(sx - a, sy - b) > size for a, b, size in stars):
-            disc(c, sx, sy, chance.choice((0.16, 0.22, 0.3)))
-            c.fill()
-    save(c, folder / "night.png")
+        c.arc(x + (SUN[0] - x) * t, y + (SUN[1] - y) * t, 20.3 - 3.3 * t,
+              TAU * (0.23 + 0.025 * i), TAU * (0.62 - 0.02 * i))
+        stroke(c, 0.2 + 0.02 * i)
+    on(c)
+    for k in range(16):  # stars between the sun's rays
+        a = (k + 0.5) * TAU / 16 - TAU / 4
+        size = (1.25, 0.5)[k % 2]
+        sx, sy = polar(*SUN, 14.2, a + 0.02)
+        line(c, [polar(sx, sy, size if j % 2 == 0 else 0.3 * size, j * TAU / 8) for j in range(8)], True)
+        c.fill()
+
+
+def pictures(folder):
+    for draw, name in ((sun, "day.png"), (moon, "night.png")):
+        c = sheet("#000000")
+        draw(c, lambda c: ink(c, "#ffffff"), lambda c: ink(c, "#000000"))
+        save(c, folder / name)
 
 
 def day_and_night(folder):
@@ -125,9 +133,12 @@ def day_and_night(folder):
     c.fill()
     ink(c, wine)
     text(c, "SOL  ET  LUNA", x, 68.5, 2.3, TITLES, 0.55)
-    foil(c)
+    night = lambda c: ink(c, "#14233f")
+    night(c)
     disc(c, x, y, 21.7)
     c.fill()
+    moon(c, foil, night)
+    sun(c, foil, night)
     frame(c, "IV", "DAY & NIGHT", "KINEGRAM  ·  TILT: TWO PICTURES IN ONE FOIL", wine, cream,
           lambda c: ink(c, "#e7bd5c"))
     save(c, folder / "day_and_night.png")
