@@ -94,8 +94,9 @@ def polar(x, y, radius, angle):
 
 
 def text(c, words, x, y, size, family, tracking):
-    """Centred, letter by letter, with this much space between them."""
-    c.select_font_face(family)
+    """Centred, letter by letter, with this much space between them. Small letters are bold: thin ones break on tilt."""
+    weight = cairo.FONT_WEIGHT_BOLD if size < 2 else cairo.FONT_WEIGHT_NORMAL
+    c.select_font_face(family, cairo.FONT_SLANT_NORMAL, weight)
     c.set_font_size(size)
     widths = [c.text_extents(letter).x_advance for letter in words]
     x -= (sum(widths) + tracking * (len(words) - 1)) / 2
