@@ -163,7 +163,7 @@ void ShaderLibrary::paste(const std::string& name, std::span<const Define> defin
         }
         const std::string included = resolve_include(file, name, line_number);
         const bool is_new = std::find(result.files.begin(), result.files.end(), included) == result.files.end();
-        if (is_new) paste(included, {}, result);
+        if (is_new) paste(included, defines, result);
         result.text += line_directive(index, line_number + 1);
     }
     if (is_root && !versioned) fail(name, 1, "no #version", "#version 450 core as the first directive");

@@ -57,11 +57,11 @@ class ShaderLibrary {
     std::string read(const std::string& name) const;
 
     /// A stage's whole text. `#include "name"` is looked up beside the including file, then from the top; a file is
-    /// pasted once however often it is included. In the stage's own file, `#include NAME` pastes the file that the
-    /// define NAME gives in quotes, or nothing if there is none; for the compiler such a define has no value. Lines for
-    /// C++ in headers of both languages, from `#ifdef __cplusplus` to the `#else` or `#endif`, become blank. The
-    /// defines go below the file's own `#version`, which must be its first directive. Throws Error (system) that names
-    /// the file and the line of a bad include.
+    /// pasted once however often it is included. `#include NAME` pastes the file that the define NAME gives in quotes,
+    /// or nothing if there is none; for the compiler such a define has no value. Lines for C++ in headers of both
+    /// languages, from `#ifdef __cplusplus` to the `#else` or `#endif`, become blank. The defines go below the file's
+    /// own `#version`, which must be its first directive. Throws Error (system) that names the file and the line of a
+    /// bad include.
     ShaderText assemble(const std::string& name, std::span<const Define> defines = {},
                         Dialect dialect = Dialect::Desktop) const;
 

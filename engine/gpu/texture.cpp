@@ -207,7 +207,9 @@ void Texture::generate_levels() {
 
 void Texture::set_sampling(const Sampling& sampling) {
     const GLint magnify = sampling.filter == Filter::Nearest ? GL_NEAREST : GL_LINEAR;
-    const GLint minify = sampling.filter == Filter::Trilinear ? GL_LINEAR_MIPMAP_LINEAR : magnify;
+    const GLint minify = sampling.filter == Filter::Trilinear                 ? GL_LINEAR_MIPMAP_LINEAR
+                         : sampling.filter == Filter::Nearest && levels() > 1 ? GL_NEAREST_MIPMAP_NEAREST
+                                                                              : magnify;
     glTextureParameteri(id(), GL_TEXTURE_MAG_FILTER, magnify);
     glTextureParameteri(id(), GL_TEXTURE_MIN_FILTER, minify);
     glTextureParameteri(id(), GL_TEXTURE_WRAP_S, wrap_mode(sampling.wrap_s));

@@ -46,7 +46,7 @@ struct TextureDesc {
     friend bool operator==(const TextureDesc&, const TextureDesc&) = default;
 };
 
-enum class Filter { Nearest, Linear, Trilinear };
+enum class Filter { Nearest, Linear, Trilinear };  ///< Nearest: of the nearest level as well
 enum class Wrap { Clamp, Repeat, Mirror };
 
 struct Sampling {

@@ -22,7 +22,7 @@ struct GrooveTexture {
     glm::dvec2 offset{0.0};
     double rotation = 0.0;
     glm::dvec2 scale{1.0};
-    bool sparkle = false;  ///< "sparkle": a pixel shows the grooves of one texel, not the mean of those that it covers
+    bool sparkle = false;  ///< "sparkle": facets of random directions; a pixel that covers many shows sixteen of them
 };
 
 /// How a grating lies on a surface.

@@ -116,14 +116,15 @@ class Composition {
 
     double foil(std::size_t texel) const { return fronts_.mask.empty() ? 1.0 : fronts_.mask[texel] / 255.0; }
 
-    bool shows_foil(std::size_t texel) const {
-        const bool hidden = layers_.ink == Ink::Covers && fronts_.artwork.rgba[4 * texel + 3] >= 128;
-        return !hidden && foil(texel) >= 0.5;
+    bool is_covered(std::size_t texel) const {
+        return layers_.ink == Ink::Covers && fronts_.artwork.rgba[4 * texel + 3] >= 128;
     }
+    bool shows_foil(std::size_t texel) const { return !is_covered(texel) && foil(texel) >= 0.5; }
 
     LayerTexel layer(std::size_t texel) const {
         const std::uint8_t* art = &fronts_.artwork.rgba[4 * texel];
-        const double opacity = art[3] / 255.0;
+        // A texel has grooves or none: metal without them would shine along the edges of the ink.
+        const double opacity = is_covered(texel) ? 1.0 : art[3] / 255.0;
         const double metal = layers_.under == Under::Metal ? foil(texel) : 0.0;
         LayerTexel result;
         for (std::size_t c = 0; c < 3; ++c)

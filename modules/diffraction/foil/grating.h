@@ -32,7 +32,7 @@ struct FoilLayers {
     Under under = Under::Paper;
     Lacquer lacquer = {};
 
-    /// Metallised relief, of which nothing beneath is seen; else lines of metal as wide as a third of their distance.
+    /// Metallised relief, of which nothing beneath is seen; else lines of metal as wide as a quarter of their distance.
     bool is_opaque() const { return ink == Ink::Covers && under == Under::Metal; }
 };
 

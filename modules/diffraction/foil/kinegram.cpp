@@ -105,7 +105,8 @@ GrooveField kinegram_field(const TwoPictures& two, double scale, const Area& are
         const std::size_t texel =
             static_cast<std::size_t>(row) * static_cast<std::size_t>(area.width_px) + static_cast<std::size_t>(column);
         const bool bright = (*pictures)[static_cast<std::size_t>(picture)][texel] > threshold;
-        return Groove{0.5, bright ? pitches[picture] : 0.0};
+        // Upright grooves send the lamp's light aside: bare metal would mirror the room around the pictures.
+        return bright ? Groove{0.5, pitches[picture]} : Groove{0.0};
     };
 }
 

@@ -25,8 +25,8 @@ glm::dvec2 picture_pitches_nm(const TwoPictures& two);
 /// other, in the first or the second order.
 std::optional<Refusal> tilt_refusal(const TwoPictures& two);
 
-/// Rows of cells of A and of B alternate. The fraction of a picture's cells that have a grating is its brightness, by
-/// ordered dither over 8 × 8 cells.
+/// Rows of cells of A and of B alternate. The fraction of a picture's cells that shine is its brightness, by ordered
+/// dither over 8 × 8 cells; the others have upright grooves.
 GrooveField kinegram_field(const TwoPictures& two, double scale, const Area& area, Brightness a, Brightness b);
 
 }  // namespace rowland::diffraction::foil

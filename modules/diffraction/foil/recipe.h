@@ -48,7 +48,7 @@ struct Hexagons {
 
 /// Dots and rings of many sizes, with circular grooves, on a ground of one direction.
 struct Cosmos {
-    double size_mm = 8.0;  ///< of the largest
+    double size_mm = 12.0;  ///< of the largest
 };
 
 /// Irregular facets of random directions: the cells of a Voronoi diagram.

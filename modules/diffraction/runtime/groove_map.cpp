@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <glm/geometric.hpp>
 #include <numbers>
+#include <random>
 #include <span>
 
 #include "engine/core/error.h"
@@ -16,6 +17,8 @@
 namespace rowland::diffraction {
 
 namespace {
+
+constexpr std::uint16_t kHalfMoment = 32768;  ///< of a texel without a grating
 
 scene::TextureUse texture_use(const GrooveTexture& use, const scene::ImportedScene& scene, const std::string& file,
                               const std::string& pointer) {
@@ -39,6 +42,67 @@ int wrapped(int index, int size, scene::TextureWrap wrap) {
     return within < size ? within : period - 1 - within;
 }
 
+/// The mean area of facets of one direction each: the inverse of the fractions of texels whose grooves are not those of
+/// the texel before them, along rows and along columns.
+double facet_texels(const image::ByteImage& image) {
+    const auto texel = [&](int column, int row) {
+        return 4 * (static_cast<std::size_t>(row) * static_cast<std::size_t>(image.width) +
+                    static_cast<std::size_t>(column));
+    };
+    double area = 1.0;
+    for (const bool along_rows : {true, false}) {
+        std::size_t pairs = 0;
+        std::size_t different = 0;
+        for (int row = along_rows ? 0 : 1; row < image.height; ++row)
+            for (int column = along_rows ? 1 : 0; column < image.width; ++column) {
+                const std::size_t here = texel(column, row);
+                const std::size_t before = along_rows ? texel(column - 1, row) : texel(column, row - 1);
+                if (image.value(here + 1) == 0.0 || image.value(before + 1) == 0.0) continue;
+                ++pairs;
+                if (image.value(here) != image.value(before)) ++different;
+            }
+        area *= static_cast<double>(std::max<std::size_t>(pairs, 1)) /
+                static_cast<double>(std::max<std::size_t>(different, 1));
+    }
+    return area;
+}
+
+/// The next level of the moments of facets, from a level of this size: of four texels the grooves of one, drawn at
+/// random among those that have a grating, and with `gaps` the mean coverage.
+std::vector<std::uint16_t> facets_of_level(const std::vector<std::uint16_t>& from, const glm::ivec2& size, bool gaps) {
+    const glm::ivec2 half = glm::max(size / 2, 1);
+    std::vector<std::uint16_t> to;
+    to.reserve(4 * static_cast<std::size_t>(half.x) * static_cast<std::size_t>(half.y));
+    std::minstd_rand random;  // the same numbers everywhere
+    for (int row = 0; row < half.y; ++row)
+        for (int column = 0; column < half.x; ++column) {
+            std::array<const std::uint16_t*, 4> covered{};
+            std::size_t count = 0;
+            double coverage = 0.0;
+            for (int i = 0; i < 4; ++i) {
+                const int x = std::min(2 * column + i % 2, size.x - 1);
+                const int y = std::min(2 * row + i / 2, size.y - 1);
+                const std::uint16_t* texel = &from[4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(size.x) +
+                                                        static_cast<std::size_t>(x))];
+                if (texel[2] == 0) continue;
+                covered.at(count++) = texel;
+                coverage += gaps ? texel[3] / 4.0 : 0.25 * 65535.0;
+            }
+            if (count == 0) {
+                to.insert(to.end(), {kHalfMoment, kHalfMoment, 0, 0});
+                continue;
+            }
+            const std::uint16_t* chosen = covered.at(random() / 8U % count);  // the lowest bits are the least random
+            const double ratio = gaps ? coverage / chosen[3] : 1.0;
+            for (std::size_t c = 0; c < 4; ++c) {
+                const double middle = c < 2 ? kHalfMoment : 0.0;
+                const double scaled = c == 3 && !gaps ? chosen[3] : middle + ratio * (chosen[c] - middle);
+                to.push_back(static_cast<std::uint16_t>(std::lround(std::clamp(scaled, 0.0, 65535.0))));
+            }
+        }
+    return to;
+}
+
 }  // namespace
 
 GrooveMap::GrooveMap(const GrooveTexture& use, render::SurfaceTextures& textures, const std::string& file,
@@ -50,6 +114,7 @@ GrooveMap::GrooveMap(const GrooveTexture& use, render::SurfaceTextures& textures
     image_ = scene.images[sampling_.image];
     for (std::size_t i = 1; i < image_->rgba.size(); i += 4) gaps_ = gaps_ || image_->value(i) == 0.0;
     pitches_ = groove_pitches(*image_);
+    if (sparkle_) facet_texels_ = facet_texels(*image_);
 }
 
 double GrooveMap::red(int column, int row) const {
@@ -82,7 +147,7 @@ double GrooveMap::rotation(const glm::vec2& uv) const {
 const gpu::Texture& GrooveMap::moments(bool even) const {
     std::optional<gpu::Texture>& made = moments_[even ? 1 : 0];
     if (made) return *made;
-    const bool levels = sampling_.mipmaps && !sampling_.nearest && !sparkle_;
+    const bool levels = sparkle_ || (sampling_.mipmaps && !sampling_.nearest);
     gpu::Sampling sampling = render::sampling_of(sampling_);
     // Software renderers average far more than a pixel when they filter anisotropically.
     sampling.anisotropy = 1.0F;
@@ -91,9 +156,14 @@ const gpu::Texture& GrooveMap::moments(bool even) const {
         gpu::TextureDesc{
             .format = gpu::Format::RGBA16, .width = image_->width, .height = image_->height, .levels = levels ? 0 : 1},
         sampling);
-    made->upload(std::span<const std::uint16_t>(
-        groove_moments(*image_, {.even = even, .gaps = gaps_, .smallest_pitch = pitches_.smallest})));
-    if (levels) made->generate_levels();
+    std::vector<std::uint16_t> texels =
+        groove_moments(*image_, {.even = even, .gaps = gaps_, .smallest_pitch = pitches_.smallest});
+    made->upload(std::span<const std::uint16_t>(texels));
+    if (levels && !sparkle_) made->generate_levels();
+    for (int level = 1; sparkle_ && level < made->levels(); ++level) {
+        texels = facets_of_level(texels, made->size(level - 1), gaps_);
+        made->upload(std::span<const std::uint16_t>(texels), {.level = level});
+    }
     return *made;
 }
 
@@ -102,6 +172,7 @@ void GrooveMap::add_defines(bool even, gpu::ProgramDesc& desc) const {
     desc.defines.push_back({use_.uv_set == 1 ? "HAS_UV1" : "HAS_UV", ""});
     if (even) desc.defines.push_back({"GROOVES_EVEN", "1"});
     if (gaps_) desc.defines.push_back({"GROOVE_GAPS", "1"});
+    if (sparkle_) desc.defines.push_back({"GROOVE_SPARKLE", "\"modules/diffraction/shaders/sparkle.glsl\""});
 }
 
 void GrooveMap::bind(bool even, const gpu::Program& program) const {
@@ -110,6 +181,7 @@ void GrooveMap::bind(bool even, const gpu::Program& program) const {
     program.set("groove_uv_linear", transform.linear);
     program.set("groove_uv_offset", transform.offset);
     program.set("groove_pitch", static_cast<float>(pitches_.smallest));
+    if (sparkle_) program.set("facet_texels", static_cast<float>(facet_texels_));
 }
 
 scene::Mesh turned_by(const GrooveMap& grooves, const scene::Mesh& mesh) {

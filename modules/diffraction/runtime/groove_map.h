@@ -20,7 +20,7 @@ namespace rowland::diffraction {
 
 /// A texture that varies the grating over a surface. R: rotation / π, added to the surface's; G: half the pitch over
 /// the material's, 0 for no grating. Pixels see the mean grooves of what they cover, and how these vary (PHYSICS §11);
-/// with GrooveTexture::sparkle those of one texel.
+/// with GrooveTexture::sparkle some of its facets, whose mean varies from pixel to pixel as that of all of them does.
 class GrooveMap {
  public:
     /// The texture that the glTF extension at the JSON pointer `pointer` of `file` names. Throws Error (input) if there
@@ -49,6 +49,7 @@ class GrooveMap {
     scene::TextureUse use_;
     bool sparkle_ = false;
     bool gaps_ = false;
+    double facet_texels_ = 1.0;                                   ///< of a texture that sparkles
     mutable std::array<std::optional<gpu::Texture>, 2> moments_;  ///< for other and for even kernels
     std::shared_ptr<const image::ByteImage> image_;
     scene::ImportedTexture sampling_;

@@ -240,6 +240,8 @@ GrooveView grooves_of(MeshView mesh, mat2x3 g_change, vec2 v_g_change, vec4 mome
     return GrooveView(turned, direction, pitch, g_change, v_g_change, mesh, turn, fade, spread, coverage);
 }
 
+#include GROOVE_SPARKLE
+#ifndef GROOVE_SPARKLE
 // A pixel whose grooves vary is divided into parts, since two distinct directions in it are no normal distribution;
 // into fewer parts where they vary little, as with a texture that rotates the grooves steadily.
 const float VARYING = 1e-3;
@@ -284,6 +286,7 @@ GrooveView groove_part(GrooveView view, int parts, int part) {
     return grooves_of(view.mesh, view.g_change, view.v_g_change, part_moments(view.mesh, parts, part));
 }
 #endif
+#endif
 
 // Uses derivatives: call it in uniform control flow.
 GrooveView groove_view() {
@@ -295,7 +298,12 @@ GrooveView groove_view() {
     vec2 uv = groove_uv_linear.xy * GROOVE_MAP.x + groove_uv_linear.zw * GROOVE_MAP.y + groove_uv_offset;
     MeshView mesh = MeshView(axes, direction, mat2x3(dFdx(axes[1]), dFdy(axes[1])),
                              vec2(dFdx(direction.y), dFdy(direction.y)), uv, mat2(dFdx(uv), dFdy(uv)));
-    return grooves_of(mesh, g_change, v_g_change, mean_moments(uv));
+#ifdef GROOVE_SPARKLE
+    vec4 moments = find_sparkle(mesh);
+#else
+    vec4 moments = mean_moments(uv);
+#endif
+    return grooves_of(mesh, g_change, v_g_change, moments);
 #elif defined(LATTICE)
     return GrooveView(axes, direction, 1.0, g_change, v_g_change, mat2x3(dFdx(axes[1]), dFdy(axes[1])),
                       vec2(dFdx(direction.y), dFdy(direction.y)));

@@ -44,7 +44,7 @@ const TEXTS = {
     "grooveRotation": ["Angle by which g, across the grooves, is rotated from the tangent toward the bitangent, in radians.", 0],
     "grooveTexture": ["Varies the grooves over the surface. R: further rotation over pi; G: half the pitch over pitch_nm, 0 where " +
         "there is no grating. Linear."],
-    "grooveTexture/sparkle": ["Whether a pixel shows the grooves of the nearest texel alone.", false],
+    "grooveTexture/sparkle": ["Whether the texture holds facets of random directions, of which a pixel shows some.", false],
 };
 
 /** Descriptions and defaults where TEXTS has them; a default of a required member is a suggestion of editors, and left out. */

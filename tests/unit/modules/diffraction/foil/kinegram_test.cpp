@@ -77,20 +77,30 @@ double correlation(const std::vector<double>& a, const Brightness& b) {
     return ab / std::sqrt(aa * bb);
 }
 
-/// The luminance that an eye before the card sees of grooves of each pitch.
-std::map<double, double> luminance_of(const Grating& grating, const std::set<double>& pitches_nm, double tilt_deg,
-                                      const lighting::ProbeImage& room) {
+/// What a texel has.
+struct Grooves {
+    bool upright = false;  ///< else they run across the card
+    double pitch_nm = 0.0;
+
+    friend auto operator<=>(const Grooves&, const Grooves&) = default;
+};
+
+/// The luminance that an eye before the card sees of each.
+std::map<Grooves, double> luminance_of(const Grating& grating, const std::set<Grooves>& all, double tilt_deg,
+                                       const lighting::ProbeImage& room) {
     const double t = radians(tilt_deg);
-    const ShadingPoint point{.view = {0.0, 0.0, 1.0},
-                             .normal = {0.0, std::sin(t), std::cos(t)},
-                             .grating = {0.0, std::cos(t), -std::sin(t)}};
-    std::map<double, double> luminance;
-    for (const double pitch_nm : pitches_nm) {
+    std::map<Grooves, double> luminance;
+    for (const Grooves& grooves : all) {
+        const ShadingPoint point{
+            .view = {0.0, 0.0, 1.0},
+            .normal = {0.0, std::sin(t), std::cos(t)},
+            .grating = grooves.upright ? glm::dvec3(1.0, 0.0, 0.0) : glm::dvec3(0.0, std::cos(t), -std::sin(t))};
         Grating of_pitch = grating;
         // A slit keeps its fraction of the pitch, as the kernel of a texture's pitch does.
-        if (auto* slit = std::get_if<SlitProfile>(&of_pitch.profile)) slit->width_nm *= pitch_nm / grating.pitch_nm;
-        of_pitch.pitch_nm = pitch_nm;
-        luminance[pitch_nm] = reference_radiance(of_pitch, room, colour::LightSpectra(), std::span(&point, 1))[0].y;
+        if (auto* slit = std::get_if<SlitProfile>(&of_pitch.profile))
+            slit->width_nm *= grooves.pitch_nm / grating.pitch_nm;
+        of_pitch.pitch_nm = grooves.pitch_nm;
+        luminance[grooves] = reference_radiance(of_pitch, room, colour::LightSpectra(), std::span(&point, 1))[0].y;
     }
     return luminance;
 }
@@ -105,17 +115,19 @@ std::vector<double> seen_card(const Foil& foil, const FoilLayers& layers, double
     const std::vector<std::uint16_t> texels = groove_texels(area, groove_field(foil, area, large));
     const nlohmann::json json = nlohmann::json::parse(foil_material(foil, layers, 0).dump());
     const Grating grating = parse_gltf_extension(json, "card.glb", ReadNamed{}, "").material.grating;
-    std::set<double> pitches_nm;
-    const auto pitch_at = [&](std::size_t texel) { return 2.0 * texels[3 * texel + 1] / 65535.0 * grating.pitch_nm; };
-    for (std::size_t texel = 0; texel < texels.size() / 3; ++texel)
-        if (pitch_at(texel) > 0.0) pitches_nm.insert(pitch_at(texel));
-    EXPECT_EQ(pitches_nm.size(), 2U);
-    const auto luminance = luminance_of(grating, pitches_nm, tilt_deg, lamp_at(two.lamp_deg));
+    const auto grooves_at = [&](std::size_t texel) {
+        return Grooves{.upright = texels[3 * texel] == 0,
+                       .pitch_nm = 2.0 * texels[3 * texel + 1] / 65535.0 * grating.pitch_nm};
+    };
+    std::set<Grooves> all;
+    for (std::size_t texel = 0; texel < texels.size() / 3; ++texel) all.insert(grooves_at(texel));
+    EXPECT_EQ(all.size(), 3U);  // of A, of B, of neither
+    const auto luminance = luminance_of(grating, all, tilt_deg, lamp_at(two.lamp_deg));
     std::vector<double> seen(static_cast<std::size_t>(kPicture * kPicture), 0.0);
     for (std::size_t texel = 0; texel < texels.size() / 3; ++texel) {
         const std::size_t row = texel / kSide / kTexelsPerPixel;
         const std::size_t column = texel % kSide / kTexelsPerPixel;
-        if (pitch_at(texel) > 0.0) seen[row * kPicture + column] += luminance.at(pitch_at(texel));
+        seen[row * kPicture + column] += luminance.at(grooves_at(texel));
     }
     return seen;
 }
