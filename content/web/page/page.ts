@@ -130,10 +130,11 @@ let chosen = 0;
 let panel: StudioPanel | undefined; // of the foil studio
 
 const SAMPLES_SCENE = SCENE_NAMES.indexOf("samples");
+const studioAddress = ({ settings }: StudioPanel) => addressOf({ scene: wanted.scene, light: lights.selectedIndex, ...settings });
 /** Whoever opens the address sees the chosen sample. */
 function writeAddress(): void {
     const piece = stage.pieces[chosen];
-    if (panel) return history.replaceState(null, "", addressOf({ scene: wanted.scene, light: lights.selectedIndex, foil: panel.settings }));
+    if (panel) return history.replaceState(null, "", studioAddress(panel));
     const bent = wanted.scene === SAMPLES_SCENE && piece ? piece : undefined;
     const material = bent && bent.grating !== bent.given ? bent.grating : undefined;
     const representation = bent?.name === wanted.sample ? wanted.representation : undefined;
@@ -266,7 +267,7 @@ panorama.addEventListener("change", () => give(panorama.files?.[0]));
 function give(file?: File): void {
     if (!file) return;
     message.textContent = "";
-    if (panel && file.type.startsWith("image/") && !/\.(hdr|exr)$/i.test(file.name)) return void panel.take(file).catch(report);
+    if (panel && !/\.(hdr|exr)$/i.test(file.name)) return void panel.take(file).catch(report);
     lightOf(file).then((texels) => light(texels)).catch(report);
 }
 
@@ -448,10 +449,8 @@ if (stage.studio) {
     resize();
     canvas.setAttribute("aria-label", "A foil card. Arrow keys tilt it, plus and minus zoom.");
     stage.studio.open(canvas, draw);
-    panel = new StudioPanel(element("studio"), stage.studio, {
-        report, clear: () => (message.textContent = ""), changed: writeAddress,
-        address: (foil, art) => addressOf({ scene: wanted.scene, light: lights.selectedIndex, foil, art }),
-    });
+    panel = new StudioPanel(element("studio"), stage.studio,
+        { report, clear: () => (message.textContent = ""), changed: writeAddress, address: () => studioAddress(panel!) });
     panel.open(wanted.foil, wanted.art).catch(report);
 } else {
     sample.append(...stage.pieces.map(({ name }) => new Option(name)));

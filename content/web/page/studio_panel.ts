@@ -1,13 +1,13 @@
 import { ARTWORK_NAMES, isBuiltIn, PAIR } from "./artworks.js";
 import { CARD_STEPS, FoilMaker } from "./foil_maker.js";
-import { checkedRecipe, COMMON, FIRST, TYPES, typeOf, valueOf, withType, withValue, type Knob, type Recipe } from "./recipe.js";
+import { checkedRecipe, COMMON, FIRST, picturesOf, TYPES, typeOf, valueOf, withType, withValue, type Knob, type Recipe } from "./recipe.js";
 import { FoilStudio } from "./studio.js";
 
 /** Texels along the card's longer side while a slider moves, and of the file. */
 const LIVE_TEXELS = 512;
 const FILE_TEXELS = 2048;
-/** A phone's screen has no more pixels along a card; dithered cells would beat with fewer texels. */
-const shownTexels = (recipe: Recipe) => (recipe.foil.type !== "two_pictures" && matchMedia("(pointer: coarse)").matches ? 1024 : FILE_TEXELS);
+/** As many as the screen shows; the dithered cells of two pictures would beat with fewer. */
+const shownTexels = (recipe: Recipe) => (recipe.foil.type === "two_pictures" || 0.75 * innerHeight * devicePixelRatio > 1100 ? FILE_TEXELS : 1024);
 const REST_MS = 350;
 /** Of an artwork that goes along in a link. */
 const LINK_SIDE = 420;
@@ -58,8 +58,8 @@ export interface Page {
     report(error: unknown): void;
     /** No message is of use any more. */
     clear(): void;
-    /** The address of the page's other settings with these. */
-    address(foil: object, art?: string): string;
+    /** With StudioPanel.settings. */
+    address(): string;
     /** The address has changed. */
     changed(): void;
 }
@@ -78,18 +78,24 @@ export class StudioPanel {
     private wanted?: { recipe: Recipe; texels: number };
     private working = false;
     private resting = 0;
-    private shared?: string; // the link's own artwork, base64
+    private linked?: string; // the artwork of the address that was opened
+    private shared?: string; // the user's artwork for a link
 
     constructor(private readonly root: HTMLElement, private readonly studio: FoilStudio, private readonly page: Page) {}
 
     /** Opens the recipe of an address; its artwork, if it is in there: WebP as base64. */
     async open(given?: object, art?: string): Promise<void> {
-        const recipe = given ? checkedRecipe(given) : FIRST;
-        if (art) {
-            const bytes = Uint8Array.from(atob(art), (letter) => letter.charCodeAt(0));
-            recipe.artwork = await this.maker.take(new Blob([bytes], { type: "image/webp" }), LINK_PICTURE);
+        try {
+            if (given) this.recipe = checkedRecipe(given);
+            if (art) await this.takeLinked(art);
+        } catch (error) {
+            this.page.report(error);
         }
-        this.recipe = recipe;
+        if (!picturesOf(this.recipe).every((name) => this.maker.has(name))) {
+            this.page.report(new Error("The link names pictures that are not in it, so that others stand here: drop or choose your own."));
+            this.recipe = this.portable();
+        }
+        const { recipe } = this;
         this.build();
         await this.work(recipe, shownTexels(recipe));
         for (const label of this.types.querySelectorAll<HTMLLabelElement>(".tile")) {
@@ -97,6 +103,13 @@ export class StudioPanel {
             drawInto(label, await createImageBitmap(new ImageData(rgba, width, height)));
         }
         this.root.dataset.thumbnails = "true";
+    }
+
+    private async takeLinked(art: string): Promise<void> {
+        const bytes = Uint8Array.from(atob(art), (letter) => letter.charCodeAt(0));
+        this.recipe = { ...this.recipe, artwork: await this.maker.take(new Blob([bytes], { type: "image/webp" }), LINK_PICTURE) };
+        this.linked = art;
+        this.withArt.checked = true;
     }
 
     /** Shows a recipe. `live`: more of its kind will follow in a moment. */
@@ -273,7 +286,7 @@ export class StudioPanel {
     /** A link shows what the page has; of the user's pictures at most the artwork goes along. */
     private portable(): Recipe {
         const { mask, ...recipe } = structuredClone(this.recipe);
-        if (!isBuiltIn(recipe.artwork)) recipe.artwork = this.withArt.checked ? LINK_PICTURE : FIRST.artwork;
+        if (!isBuiltIn(recipe.artwork)) recipe.artwork = this.art ? LINK_PICTURE : FIRST.artwork;
         if (recipe.card?.back) delete recipe.card.back;
         typeOf(recipe).pictures.forEach(({ key }, i) => {
             if (!isBuiltIn(String(recipe.foil[key]))) recipe.foil[key] = recipe.foil.type === "own" ? recipe.artwork : PAIR[i];
@@ -281,9 +294,13 @@ export class StudioPanel {
         return recipe;
     }
 
+    private get art(): string | undefined {
+        return this.withArt.checked ? this.shared : undefined;
+    }
+
     /** What the page's address holds of the studio. */
-    get settings(): object {
-        return this.portable();
+    get settings(): { foil: object; art?: string } {
+        return { foil: this.portable(), art: this.art };
     }
 
     private async sizeArt(): Promise<void> {
@@ -291,7 +308,7 @@ export class StudioPanel {
         this.artLabel.hidden = isBuiltIn(artwork);
         this.shared = undefined;
         if (this.artLabel.hidden) return;
-        const art = await base64(await this.maker.small(artwork, LINK_SIDE));
+        const art = (artwork === LINK_PICTURE && this.linked) || (await base64(await this.maker.small(artwork, LINK_SIDE)));
         if (artwork !== this.recipe.artwork) return;
         this.shared = art;
         this.artLabel.lastChild!.textContent = `With my artwork, small: ${Math.ceil(art.length / 1000)} kB of address`;
@@ -308,11 +325,13 @@ export class StudioPanel {
             made.addEventListener("click", () => click().catch(this.page.report));
             return made;
         };
-        this.withArt.addEventListener("change", () => (this.said.value = ""));
+        this.withArt.addEventListener("change", () => {
+            this.said.value = "";
+            this.page.changed();
+        });
         const link = button("copy-link", "Copy link", async () => {
-            const art = this.withArt.checked && !this.artLabel.hidden ? this.shared : undefined;
-            await this.copy(new URL(this.page.address(this.portable(), art), location.href).href,
-                art || this.artLabel.hidden ? "The link is copied." : "The link is copied, without your pictures.");
+            await this.copy(new URL(this.page.address(), location.href).href,
+                this.art || this.artLabel.hidden ? "The link is copied." : "The link is copied, without your pictures.");
         });
         const lines = make("pre", { tabIndex: 0, textContent: THREE_LINES });
         lines.setAttribute("aria-label", "Lines for three.js");

@@ -9,23 +9,23 @@ export interface Picture16 {
 
 const CHANNELS: Record<number, number> = { 0: 1, 2: 3, 4: 2, 6: 4 };
 
-/** The value that a filter of PNG predicts from the bytes to the left, above, and above to the left. */
-function predicted(filter: number, left: number, above: number, corner: number): number {
-    if (filter < 3) return [0, left, above][filter];
-    if (filter === 3) return (left + above) >> 1;
+/** Paeth's predictor (PNG, 9.4), from the bytes to the left, above, and above to the left. */
+function paeth(left: number, above: number, corner: number): number {
     const [a, b, c] = [Math.abs(above - corner), Math.abs(left - corner), Math.abs(left + above - 2 * corner)];
     return a <= b && a <= c ? left : b <= c ? above : corner;
 }
 
-/** Undoes the filters of the rows in place: of `stride` bytes and the filter before them. */
+/** Undoes the filters of rows: of `stride` bytes each and the filter before them. */
 function unfilter(rows: Uint8Array, stride: number, texel: number): void {
     for (let begin = 1, above = -1; begin < rows.length; above = begin, begin += stride + 1) {
         const filter = rows[begin - 1];
-        if (filter === 0) continue;
+        if (filter === 2 && above >= 0) for (let i = 0; i < stride; ++i) rows[begin + i] += rows[above + i];
+        if (filter === 0 || filter === 2) continue;
         for (let i = 0; i < stride; ++i) {
             const left = i < texel ? 0 : rows[begin + i - texel];
             const up = above < 0 ? 0 : rows[above + i];
-            rows[begin + i] += filter === 2 ? up : predicted(filter, left, up, i < texel || above < 0 ? 0 : rows[above + i - texel]);
+            const corner = i < texel || above < 0 ? 0 : rows[above + i - texel];
+            rows[begin + i] += filter === 1 ? left : filter === 3 ? (left + up) >> 1 : paeth(left, up, corner);
         }
     }
 }

@@ -178,7 +178,7 @@ async function holdPhone() {
 
 /** Where the controls are when each is scrolled to, and how far the page scrolls sideways. */
 function layout() {
-    const controls = [...document.querySelectorAll("#panel input, #panel select")].filter((control) => control.checkVisibility());
+    const controls = [...document.querySelectorAll("#panel input, #panel select, #panel button, #panel summary")].filter((control) => control.checkVisibility());
     const boxes = controls.map((control) => {
         const target = control.type === "checkbox" ? control.closest("label") : control;
         target.scrollIntoView({ block: "nearest" });
@@ -235,6 +235,7 @@ async function visit() {
         return post({ ...result, said: said(), alt: image.alt, size: [image.naturalWidth, image.naturalHeight], errors: [] });
     }
     if (limits.has("phone")) await holdPhone();
+    if (limits.has("foil")) return post({ ...result, ...(await foilVisit(result.pictures)) });
     // Every flat sample; the ball's table takes seconds.
     await until("the first light", () => Number(document.documentElement.dataset.lit) >= 4);
     const { processInfo } = await devtools("SystemInfo.getProcessInfo");
