@@ -107,7 +107,7 @@ export class FoilStudio {
             if (this.fingers.size === 1) this.tilt(BY_DRAG * (event.clientY - before.clientY), BY_DRAG * (event.clientX - before.clientX));
         });
         for (const end of ["pointerup", "pointercancel"] as const) canvas.addEventListener(end, (event) => this.fingers.delete(event.pointerId));
-        if (!FoilStudio.asksForPhone) addEventListener("deviceorientation", this.follow);
+        addEventListener("deviceorientation", this.follow);
         this.place();
     }
 
@@ -116,9 +116,9 @@ export class FoilStudio {
         this.place();
     }
 
-    /** Whether the browser gives the phone's tilt only after a tap. */
+    /** Whether a phone's browser may give its tilt only after a tap. */
     static get asksForPhone(): boolean {
-        return typeof DeviceOrientationEvent !== "undefined" && "requestPermission" in DeviceOrientationEvent;
+        return typeof DeviceOrientationEvent !== "undefined" && "requestPermission" in DeviceOrientationEvent && matchMedia("(pointer: coarse)").matches;
     }
 
     /** After a tap. */
@@ -126,6 +126,8 @@ export class FoilStudio {
         const ask = (DeviceOrientationEvent as unknown as { requestPermission(): Promise<string> }).requestPermission;
         if ((await ask.call(DeviceOrientationEvent)) !== "granted")
             throw new Error("The browser did not give the phone's tilt: allow motion and orientation for this page, then tap again.");
+        // A listener from before the permission may get nothing.
+        removeEventListener("deviceorientation", this.follow);
         addEventListener("deviceorientation", this.follow);
     }
 

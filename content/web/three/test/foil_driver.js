@@ -42,26 +42,35 @@ function drop(file) {
 
 const changedPart = (a, b) => [...a.data.keys()].filter((i) => Math.abs(a.data[i] - b.data[i]) > 8).length / a.data.length;
 
+async function copiedLink() {
+    copied = "";
+    document.getElementById("copy-link").click();
+    await until("the link", () => copied !== "");
+    return copied;
+}
+
 async function foilVisit(pictures) {
+    const times = {};
+    const mark = (name) => (times[name] = Math.round(performance.now() / 1000));
     await until("the first card", () => studio()?.dataset.busy === "false");
-    const still = String(tilt());
-    await until("a gentle motion", () => String(tilt()) !== still);
-    await devtools("Emulation.setEmulatedMedia", { features: [{ name: "prefers-reduced-motion", value: "reduce" }] });
-    await until("the motion's end", () => !document.getElementById("foil-motion").checked);
     await until("the thumbnails", () => studio().dataset.thumbnails === "true");
+    mark("thumbnails");
     await settled();
     const before = frames();
     await wait(2000);
     const framesAtRest = frames() - before;
+    mark("rest");
 
     const art = await artwork();
     drop(art);
     await until("the artwork's button", () => document.getElementById("artwork-mine.png"));
     await made();
     pictures.ice = await picture();
+    mark("artwork");
     document.getElementById("type-hexagons").click();
     await made();
     pictures.hexagons = await picture();
+    mark("type");
 
     const [x, y] = spot(0, 0);
     const held = tilt();
@@ -71,21 +80,26 @@ async function foilVisit(pictures) {
     await until("the phone's orientation", () => orientations > 0);
     const neutral = tilt();
     pictures.dragged = await picture();
+    mark("drag");
     await devtools("DeviceOrientation.setDeviceOrientationOverride", { alpha: 0, beta: 52, gamma: -6 });
     await until("another tilt", () => String(tilt()) !== String(neutral));
     const tilted = tilt();
     pictures.tilted = await picture();
+    mark("tilt");
 
-    document.getElementById("copy-link").click();
-    await until("the link", () => copied !== "");
+    const link = await copiedLink();
+    document.getElementById("with-art").click();
+    const linkWithArt = await copiedLink();
     document.getElementById("download").click();
     await until("the file", () => offered);
     const glb = await base64(offered);
     drop(new File(["no picture"], "broken.png", { type: "image/png" }));
     await until("word of the broken file", () => said() !== "");
+    const found = { layout: layout(), violations: await violations() };
+    mark("file");
+    await devtools("DeviceOrientation.clearDeviceOrientationOverride", {});
     return {
-        framesAtRest, tilts: { held, dragged, neutral, tilted }, link: copied, glb, art: await base64(art), broken: said(),
+        ...found, times, framesAtRest, tilts: { held, dragged, neutral, tilted }, link, linkWithArt, glb, art: await base64(art), broken: said(),
         changed: { type: changedPart(pictures.ice, pictures.hexagons), tilt: changedPart(pictures.dragged, pictures.tilted) },
-        layout: layout(), violations: await violations(),
     };
 }
