@@ -32,8 +32,8 @@ const LIGHTS: Record<string, { top: number[]; bottom: number[]; boxes: Box[] }> 
         ],
     },
     Spotlights: {
-        top: [0.34, 0.34, 0.36],
-        bottom: [0.16, 0.16, 0.16],
+        top: [0.2, 0.2, 0.22],
+        bottom: [0.1, 0.1, 0.1],
         boxes: [
             { azimuth: -30, height: 40, width: 2.5, tall: 2.5, radiance: [420, 410, 390] },
             { azimuth: -62, height: 34, width: 2.5, tall: 2.5, radiance: [300, 300, 310] },
