@@ -21,7 +21,9 @@ void expect_tests_pass(const std::string& name, const char* built, std::chrono::
     const std::string data = probe.parent_path().parent_path().string();
     const test::Ended ended = test::run(
         {"/usr/bin/env", "npm", "test"},
-        {.environment = {{"ROWLAND_TRADE", ROWLAND_TRADE}, {"ROWLAND_DATA", data}}, .folder = package, .limit = limit});
+        {.environment = {{"ROWLAND_TRADE", ROWLAND_TRADE}, {"ROWLAND_COOK", ROWLAND_COOK}, {"ROWLAND_DATA", data}},
+         .folder = package,
+         .limit = limit});
     EXPECT_EQ(ended.code, 0) << ended.out << ended.err;
     EXPECT_NE(ended.out.find("# skipped 0"), std::string::npos) << ended.out;
 }

@@ -58,9 +58,11 @@ async function builtInEfficiencies() {
 const builtIn = { BUILT_IN_KEY_LIGHTS: await builtInKeyLights(), BUILT_IN_EFFICIENCIES: await builtInEfficiencies() };
 buildSync({ ...options, entryPoints: [here + "page.ts"], define: builtIn, outfile: out + "/page.js" });
 buildSync({ ...options, entryPoints: [from + "/dist/worker.js"], outfile: out + "/worker.js" });
-buildSync({ ...options, entryPoints: [here + "environment.ts"], outfile: out + "/environment.js" });
+for (const name of ["environment", "foil_worker"]) buildSync({ ...options, entryPoints: [`${here}${name}.ts`], outfile: `${out}/${name}.js` });
 for (const file of ["index.html", "page.css", "cabinet.glb", "cabinet.webp"]) cpSync(here + file, `${out}/${file}`);
 cpSync(here + "../../scenes/films.glb", `${out}/films.glb`);
 for (const file of readdirSync(from + "/dist").filter((name) => name.endsWith(".wasm"))) cpSync(`${from}/dist/${file}`, `${out}/${file}`);
+const { top } = await import(pathToFileURL(from + "/build/places.mjs"));
+cpSync(top + "build/web/bake/foil.wasm", out + "/foil.wasm"); // the package has no foil studio
 for (const file of ["draco_decoder.wasm", "draco_wasm_wrapper.js"])
     cpSync(`${from}/node_modules/three/examples/jsm/libs/draco/gltf/${file}`, `${out}/draco/${file}`);

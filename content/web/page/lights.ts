@@ -31,6 +31,17 @@ const LIGHTS: Record<string, { top: number[]; bottom: number[]; boxes: Box[] }> 
             { azimuth: 130, height: 25, width: 3, tall: 1.5, radiance: [500, 330, 180] },
         ],
     },
+    Spotlights: {
+        top: [0.2, 0.2, 0.22],
+        bottom: [0.1, 0.1, 0.1],
+        boxes: [
+            { azimuth: -30, height: 40, width: 2.5, tall: 2.5, radiance: [420, 410, 390] },
+            { azimuth: -62, height: 34, width: 2.5, tall: 2.5, radiance: [300, 300, 310] },
+            { azimuth: 4, height: 52, width: 2.5, tall: 2.5, radiance: [330, 320, 300] },
+            { azimuth: 32, height: 22, width: 2, tall: 2, radiance: [230, 240, 260] },
+            { azimuth: -95, height: 58, width: 3, tall: 3, radiance: [250, 230, 200] },
+        ],
+    },
     Overcast: { top: [0.9, 0.95, 1.05], bottom: [0.2, 0.19, 0.17], boxes: [] },
 };
 export const LIGHT_NAMES = Object.keys(LIGHTS);

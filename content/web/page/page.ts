@@ -11,8 +11,9 @@ import { PixelComparer } from "./pixel.js";
 import { Programs } from "./programs.js";
 import { ReferenceView } from "./reference_view.js";
 import { Reflections } from "./reflections.js";
+import { StudioPanel } from "./studio_panel.js";
 import { numberAt, slidersOf, withNumber } from "./samples.js";
-import { cabinet, films, hasReference, materialsOf, Rest, samples, type Piece, type Stage } from "./stage.js";
+import { cabinet, films, foil, hasReference, materialsOf, Rest, samples, type Piece, type Stage } from "./stage.js";
 
 const element = <Kind extends HTMLElement>(id: string) => document.getElementById(id) as Kind;
 const message = element("message");
@@ -32,7 +33,7 @@ try {
 } catch (error) {
     report(error);
 }
-const loading = [cabinet, samples, films][wanted.scene](rowland, wanted);
+const loading = [cabinet, samples, foil, films][wanted.scene](rowland, wanted);
 
 /** Without WebGL 2 a picture is shown, and what to do. */
 function rendererOf(canvas: HTMLCanvasElement): WebGLRenderer {
@@ -73,6 +74,7 @@ const frames = new Frames(renderer, {
         if (referenceShown.checked) reference.draw();
         data.frames = String(++frameCount);
         data.lit = String(litMaterials());
+        stage.studio?.updated();
         data.pose = JSON.stringify({ distance: controls.getDistance(), azimuth: controls.getAzimuthalAngle(), turns: stage.pieces.map((piece) => turns.get(piece) ?? 0) });
     },
     drawn() {
@@ -80,7 +82,7 @@ const frames = new Frames(renderer, {
         if (Number(data.lit) > 0) mark("diffraction");
         rest();
     },
-    changing: () => lightPending || down.size > 0 || (rowland.busy && !referenceShown.checked),
+    changing: () => lightPending || stage.studio?.moving || down.size > 0 || (rowland.busy && !referenceShown.checked),
 });
 const redraw = () => loaded && environment && frames.ask();
 /** When neither the GPU nor a worker has anything left: what the picture still lacks. */
@@ -125,11 +127,14 @@ const sample = element<HTMLSelectElement>("sample");
 const lights = element<HTMLSelectElement>("light");
 const sliders = element("sliders");
 let chosen = 0;
+let panel: StudioPanel | undefined; // of the foil studio
 
 const SAMPLES_SCENE = SCENE_NAMES.indexOf("samples");
+const studioAddress = ({ settings }: StudioPanel) => addressOf({ scene: wanted.scene, light: lights.selectedIndex, ...settings });
 /** Whoever opens the address sees the chosen sample. */
 function writeAddress(): void {
     const piece = stage.pieces[chosen];
+    if (panel) return history.replaceState(null, "", studioAddress(panel));
     const bent = wanted.scene === SAMPLES_SCENE && piece ? piece : undefined;
     const material = bent && bent.grating !== bent.given ? bent.grating : undefined;
     const representation = bent?.name === wanted.sample ? wanted.representation : undefined;
@@ -262,6 +267,7 @@ panorama.addEventListener("change", () => give(panorama.files?.[0]));
 function give(file?: File): void {
     if (!file) return;
     message.textContent = "";
+    if (panel && !/\.(hdr|exr)$/i.test(file.name)) return void panel.take(file).catch(report);
     lightOf(file).then((texels) => light(texels)).catch(report);
 }
 
@@ -339,7 +345,7 @@ const spread = () => {
     return Math.hypot(a.clientX - b.clientX, a.clientY - b.clientY);
 };
 canvas.addEventListener("pointerdown", (event) => {
-    if (down.size === 0) held = pieceOf(under(event).hit?.object ?? null);
+    if (down.size === 0 && !stage.studio) held = pieceOf(under(event).hit?.object ?? null);
     down.add(event.pointerId);
     if (!held) return; // the controls' own
     if (fingers.size === 0) showSample(stage.pieces.indexOf(held));
@@ -388,6 +394,7 @@ const KEYS: Record<string, () => unknown> = {
     e: () => stage.pieces[chosen] && turn(stage.pieces[chosen], 0.05),
 };
 function orbit(around: number, down: number): void {
+    if (stage.studio) return stage.studio.tilt(down, around);
     const offset = camera.position.clone().sub(controls.target);
     const polar = Math.min(Math.max(Math.acos(offset.y / offset.length()) + down, 0.02), controls.maxPolarAngle);
     camera.position.setFromSphericalCoords(offset.length(), polar, Math.atan2(offset.x, offset.z) + around).add(controls.target);
@@ -415,8 +422,9 @@ function resize(): void {
     const { clientWidth, clientHeight } = canvas;
     renderer.setSize(clientWidth, clientHeight, false);
     camera.aspect = clientWidth / clientHeight;
-    // On a narrow screen as much from left to right as on one of 4 : 3.
-    camera.fov = (360 / Math.PI) * Math.atan(Math.tan((17.5 * Math.PI) / 180) * Math.max(1, 4 / 3 / camera.aspect));
+    // On a narrow screen as much from left to right as on one of 4 : 3, or as a card is wide.
+    const shape = stage.studio ? 0.75 : 4 / 3;
+    camera.fov = (360 / Math.PI) * Math.atan(Math.tan((17.5 * Math.PI) / 180) * Math.max(1, shape / camera.aspect));
     camera.updateProjectionMatrix();
     draw();
 }
@@ -435,9 +443,20 @@ controls.target.copy(stage.target);
 controls.minDistance = stage.nearest;
 controls.maxDistance = stage.farthest;
 controls.update();
-sample.append(...stage.pieces.map(({ name }) => new Option(name)));
-const named = stage.pieces.findIndex(({ name }) => name === wanted.sample);
-if (wanted.sample !== undefined && named < 0)
-    report(new Error(`the address: expected sample to be one of ${stage.pieces.map(({ name }) => name).join(", ")}, found "${wanted.sample}"`));
-showSample(Math.max(named, 0));
+if (stage.studio) {
+    controls.enableRotate = controls.enablePan = false;
+    scene.backgroundIntensity = 0.2;
+    resize();
+    canvas.setAttribute("aria-label", "A foil card. Arrow keys tilt it, plus and minus zoom.");
+    stage.studio.open(canvas, draw);
+    panel = new StudioPanel(element("studio"), stage.studio,
+        { report, clear: () => (message.textContent = ""), changed: writeAddress, address: () => studioAddress(panel!) });
+    panel.open(wanted.foil, wanted.art).catch(report);
+} else {
+    sample.append(...stage.pieces.map(({ name }) => new Option(name)));
+    const named = stage.pieces.findIndex(({ name }) => name === wanted.sample);
+    if (wanted.sample !== undefined && named < 0)
+        report(new Error(`the address: expected sample to be one of ${stage.pieces.map(({ name }) => name).join(", ")}, found "${wanted.sample}"`));
+    showSample(Math.max(named, 0));
+}
 rowland.onUpdate();

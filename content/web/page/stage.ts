@@ -6,6 +6,7 @@ import { DRACOLoader } from "three/examples/jsm/loaders/DRACOLoader.js";
 import { GLTFLoader } from "three/examples/jsm/loaders/GLTFLoader.js";
 import { FilmExtension, FilmMaterial, GratingExtension, GratingMaterial, type Rowland } from "@rowland/three";
 import type { Settings } from "./address.js";
+import { FoilStudio } from "./studio.js";
 import { builtInEfficiencies, SAMPLES } from "./samples.js";
 
 type ShownMaterial = GratingMaterial | FilmMaterial;
@@ -31,6 +32,8 @@ export interface Stage {
     target: Vector3;
     nearest: number;
     farthest: number;
+    /** Of the scene with a card. */
+    studio?: FoilStudio;
 }
 
 export const materialsOf = (piece: Piece) => [...new Set(piece.meshes.map(({ material }) => material))];
@@ -87,6 +90,11 @@ async function loaded(file: string, rowland: Rowland): Promise<{ scene: Object3D
 export async function cabinet(rowland: Rowland): Promise<Stage> {
     const { scene, pieces } = await loaded("cabinet.glb", rowland);
     return { objects: scene, pieces, eye: new Vector3(0.02, 1.36, 0.98), target: new Vector3(0.02, 0.97, -0.03), nearest: 0.15, farthest: 3 };
+}
+
+/** The foil studio's card, which comes with its panel. */
+export async function foil(rowland: Rowland): Promise<Stage> {
+    return new FoilStudio(rowland).stage;
 }
 
 /** The demo's films: a bubble, an anodised ring, lenses and oil. */

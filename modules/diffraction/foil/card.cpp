@@ -119,8 +119,8 @@ OrderedJson surface(double metallic, double roughness) {
     return {{"metallicFactor", metallic}, {"roughnessFactor", roughness}};
 }
 
-int add_front(const Recipe& recipe, CardTextures textures, Glb& glb) {
-    OrderedJson pbr = surface(textures.metallic, textures.roughness);
+int add_front(const Recipe& recipe, const CardTexels& texels, CardTextures& textures, Glb& glb) {
+    OrderedJson pbr = surface(texels.metallic, texels.roughness);
     pbr["baseColorTexture"] = {{"index", glb.add_texture(std::move(textures.base_colour), "artwork")}};
     if (!textures.metallic_roughness.empty())
         pbr["metallicRoughnessTexture"] = {
@@ -129,7 +129,7 @@ int add_front(const Recipe& recipe, CardTextures textures, Glb& glb) {
     if (!textures.grooves.empty())
         grooves = glb.add_texture(std::move(textures.grooves), "grooves", foil_grating(recipe.foil).sparkle);
     OrderedJson material{{"name", "Front"}, {"pbrMetallicRoughness", std::move(pbr)}};
-    material["extensions"][kGltfExtension] = foil_material(recipe.foil, textures.layers, grooves);
+    material["extensions"][kGltfExtension] = foil_material(recipe.foil, texels.layers, grooves);
     glb.json()["extensionsUsed"].push_back(kGltfExtension);
     return glb.add_material(std::move(material));
 }
@@ -154,17 +154,22 @@ std::vector<std::string> picture_names(const Recipe& recipe) {
     return {names.begin(), names.end()};
 }
 
-std::vector<std::byte> make_card(const Recipe& recipe, const NamedPictures& pictures, const std::string& file,
-                                 const OnStep& on_step) {
-    CardTextures textures = card_textures(recipe, pictures, file, on_step);
+std::vector<std::byte> card_file(const Recipe& recipe, const CardTexels& texels, CardTextures textures,
+                                 const std::string& file) {
     const CardMesh mesh = card_mesh(recipe.card);
     Glb glb;
-    glb.add_primitive(mesh.front, add_front(recipe, std::move(textures), glb));
+    glb.add_primitive(mesh.front, add_front(recipe, texels, textures, glb));
     std::optional<int> back;
-    if (!recipe.card.back.empty()) back = glb.add_texture(back_texture(recipe, pictures.at(recipe.card.back)), "back");
+    if (!textures.back.empty()) back = glb.add_texture(std::move(textures.back), "back");
     glb.add_primitive(mesh.back, add_paper("Back", back, glb));
     glb.add_primitive(mesh.edge, add_paper("Edge", std::nullopt, glb));
     return glb.bytes(file);
+}
+
+std::vector<std::byte> make_card(const Recipe& recipe, const NamedPictures& pictures, const std::string& file,
+                                 const OnStep& on_step) {
+    const CardTexels texels = card_texels(recipe, pictures, file, on_step);
+    return card_file(recipe, texels, card_textures(texels, recipe, pictures, on_step), file);
 }
 
 std::vector<std::byte> groove_texture(const Foil& foil, const Area& area) {

@@ -7,15 +7,17 @@
 #include <string>
 #include <vector>
 
+#include "engine/image/byte_image.h"
 #include "modules/diffraction/foil/pattern.h"
 #include "modules/diffraction/foil/recipe.h"
 
 namespace rowland::diffraction::foil {
 
-/// A picture that a recipe names: a PNG or JPEG.
+/// A picture that a recipe names.
 struct NamedPicture {
-    std::string file;  ///< what messages call it
-    std::vector<std::byte> bytes;
+    std::string file;               ///< what messages call it
+    std::vector<std::byte> bytes;   ///< a PNG or JPEG; empty: the caller has decoded the picture itself
+    image::ByteImage decoded = {};  ///< then
 };
 /// By the names in the recipe.
 using NamedPictures = std::map<std::string, NamedPicture>;

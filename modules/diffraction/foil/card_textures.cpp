@@ -25,14 +25,16 @@ constexpr std::array<double, 3> kPaper = {244.0, 243.0, 239.0};  ///< sRGB
 constexpr std::array<double, 3> kMetal = {245.0, 245.0, 246.0};  ///< of aluminium's reflectance
 
 image::ByteImage decoded(const NamedPicture& picture) {
-    const image::ByteImageSize size = image::byte_image_size(picture.bytes, picture.file);
+    const bool is_file = !picture.bytes.empty();
+    const image::ByteImageSize size = is_file ? image::byte_image_size(picture.bytes, picture.file)
+                                              : image::ByteImageSize{picture.decoded.width, picture.decoded.height};
     const std::string found = fmt::format("{} x {} texels", size.width, size.height);
     if (std::min(size.width, size.height) < kLeastSide_px)
         refuse_input(picture.file, "", found, fmt::format("at least {0} x {0}", kLeastSide_px),
                      "take a larger picture");
     if (std::max(size.width, size.height) > kMostSide_px)
         refuse_input(picture.file, "", found, fmt::format("at most {0} x {0}", kMostSide_px), "scale the picture down");
-    return image::decode_byte_image(picture.bytes, picture.file);
+    return is_file ? image::decode_byte_image(picture.bytes, picture.file) : picture.decoded;
 }
 
 Area card_area(const Recipe& recipe) {
@@ -175,7 +177,7 @@ bool are_equal_texels(const std::vector<std::uint8_t>& rgb) {
 
 void check_foil_is_seen(const Recipe& recipe, const NamedPictures& pictures, const FoilLayers& layers,
                         const std::vector<std::uint8_t>& has_foil) {
-    if (std::ranges::find(has_foil, 1) != has_foil.end()) return;
+    if (std::find(has_foil.begin(), has_foil.end(), 1) != has_foil.end()) return;
     if (layers.ink == Ink::Covers)
         refuse_input(pictures.at(recipe.artwork).file, "", "ink over all of the foil",
                      "an artwork with transparent parts, where the foil shows",
@@ -194,74 +196,83 @@ std::vector<Brightness> foil_pictures(const Recipe& recipe, const NamedPictures&
     return all;
 }
 
-/// Whether a file's own bytes do as the texture of a card.
-bool serves_as_it_is(const Recipe& recipe, const image::ByteImage& picture, const Area& area) {
-    return !is_transparent_anywhere(picture) && std::max(picture.width, picture.height) <= recipe.texture_px &&
+/// Whether the file's own bytes do as the texture of a card.
+bool serves_as_it_is(const Recipe& recipe, const NamedPicture& named, const image::ByteImage& picture,
+                     const Area& area) {
+    return !named.bytes.empty() && !is_transparent_anywhere(picture) &&
+           std::max(picture.width, picture.height) <= recipe.texture_px &&
            has_proportions({picture.width, picture.height}, area.width_px, area.height_px);
 }
 
-std::vector<std::byte> png_of(const Area& area, std::span<const std::uint8_t> rgb) {
-    return image::encode_png(area.width_px, area.height_px, 3, rgb, image::PngEffort::Fast);
-}
-
-}  // namespace
-
-CardTextures card_textures(const Recipe& recipe, const NamedPictures& pictures, const std::string& file,
-                           const OnStep& on_step) {
-    const auto step = [&] {
-        if (on_step) on_step();
-    };
-    const Area area = card_area(recipe);
-    const NamedPicture& named = pictures.at(recipe.artwork);
-    const image::ByteImage artwork = decoded(named);
-    CardTextures textures;
-    textures.layers = layers_of(recipe, artwork);
-    if (!textures.layers.lacquer.gloss && textures.layers.lacquer.tint != glm::dvec3(1.0))
-        refuse_input(file, "/lacquer/tint", "a tint without a lacquer", "\"gloss\": true", "or leave the tint out");
-    Fronts fronts;
-    fronts.mask = mask_of(recipe, pictures, {artwork.width, artwork.height}, area);
-    const bool as_it_is = serves_as_it_is(recipe, artwork, area);
-    fronts.artwork = fill_card(artwork, area.width_px, area.height_px);
-    step();
-    const std::vector<Brightness> drawings = foil_pictures(recipe, pictures, area);
-    const FrontTexels texels = front_texels(Composition(textures.layers, fronts), area);
-    check_foil_is_seen(recipe, pictures, textures.layers, texels.has_foil);
-    step();
-    const bool everywhere = std::ranges::find(texels.has_foil, 0) == texels.has_foil.end();
-    const bool needs_grooves = !everywhere || !foil_grating(recipe.foil).one_direction;
-    const bool is_even = are_equal_texels(texels.metallic_roughness);
-    textures.roughness = is_even ? texels.metallic_roughness[1] / 255.0 : 1.0;
-    textures.metallic = is_even ? texels.metallic_roughness[2] / 255.0 : 1.0;
-    std::vector<std::uint16_t> grooves;
-    if (needs_grooves) grooves = groove_texels(area, groove_field(recipe.foil, area, drawings), texels.has_foil);
-    step();
-    const std::array<std::function<void()>, 3> encodings = {
-        [&] {
-            if (needs_grooves)
-                textures.grooves = image::encode_png(area.width_px, area.height_px, 3, grooves, image::PngEffort::Fast);
-        },
-        [&] { textures.base_colour = as_it_is ? named.bytes : png_of(area, texels.colour); },
-        [&] {
-            if (!is_even) textures.metallic_roughness = png_of(area, texels.metallic_roughness);
-        }};
-    parallel_for(encodings.size(), [&](std::size_t i) {
-        encodings.at(i)();
-        step();
-    });
-    return textures;
-}
-
-std::vector<std::byte> back_texture(const Recipe& recipe, const NamedPicture& picture) {
-    const Area area = card_area(recipe);
-    const image::ByteImage back = decoded(picture);
-    if (serves_as_it_is(recipe, back, area)) return picture.bytes;
+std::vector<std::uint8_t> back_texels(const Recipe& recipe, const NamedPicture& named, const Area& area) {
+    const image::ByteImage back = decoded(named);
+    if (serves_as_it_is(recipe, named, back, area)) return {};
     const image::ByteImage filled = fill_card(back, area.width_px, area.height_px);
     std::vector<std::uint8_t> rgb(filled.rgba.size() / 4 * 3);
     for (std::size_t i = 0; i < rgb.size(); ++i) {
         const std::uint8_t* texel = &filled.rgba[i / 3 * 4];
         rgb[i] = byte_of(mixed(kPaper[i % 3], texel[i % 3], texel[3] / 255.0));
     }
-    return png_of(area, rgb);
+    return rgb;
+}
+
+}  // namespace
+
+CardTexels card_texels(const Recipe& recipe, const NamedPictures& pictures, const std::string& file,
+                       const OnStep& on_step) {
+    const auto step = [&] {
+        if (on_step) on_step();
+    };
+    const Area area = card_area(recipe);
+    const NamedPicture& named = pictures.at(recipe.artwork);
+    const image::ByteImage artwork = decoded(named);
+    CardTexels result{.area = area, .layers = layers_of(recipe, artwork)};
+    if (!result.layers.lacquer.gloss && result.layers.lacquer.tint != glm::dvec3(1.0))
+        refuse_input(file, "/lacquer/tint", "a tint without a lacquer", "\"gloss\": true", "or leave the tint out");
+    Fronts fronts;
+    fronts.mask = mask_of(recipe, pictures, {artwork.width, artwork.height}, area);
+    const bool as_it_is = serves_as_it_is(recipe, named, artwork, area);
+    fronts.artwork = fill_card(artwork, area.width_px, area.height_px);
+    step();
+    const std::vector<Brightness> drawings = foil_pictures(recipe, pictures, area);
+    FrontTexels texels = front_texels(Composition(result.layers, fronts), area);
+    check_foil_is_seen(recipe, pictures, result.layers, texels.has_foil);
+    step();
+    const bool everywhere = std::find(texels.has_foil.begin(), texels.has_foil.end(), 0) == texels.has_foil.end();
+    const bool needs_grooves = !everywhere || !foil_grating(recipe.foil).one_direction;
+    const bool is_even = are_equal_texels(texels.metallic_roughness);
+    result.roughness = is_even ? texels.metallic_roughness[1] / 255.0 : 1.0;
+    result.metallic = is_even ? texels.metallic_roughness[2] / 255.0 : 1.0;
+    if (needs_grooves) result.grooves = groove_texels(area, groove_field(recipe.foil, area, drawings), texels.has_foil);
+    if (!as_it_is) result.base_colour = std::move(texels.colour);
+    if (!is_even) result.metallic_roughness = std::move(texels.metallic_roughness);
+    if (!recipe.card.back.empty()) result.back = back_texels(recipe, pictures.at(recipe.card.back), area);
+    step();
+    return result;
+}
+
+CardTextures card_textures(const CardTexels& texels, const Recipe& recipe, const NamedPictures& pictures,
+                           const OnStep& on_step) {
+    const auto png_of = [&](const auto& values) {
+        if (values.empty()) return std::vector<std::byte>{};
+        return image::encode_png(texels.area.width_px, texels.area.height_px, 3, std::span(values),
+                                 image::PngEffort::Fast);
+    };
+    CardTextures textures;
+    const std::array<std::function<void()>, 3> encodings = {
+        [&] { textures.grooves = png_of(texels.grooves); },
+        [&] {
+            textures.base_colour =
+                texels.base_colour.empty() ? pictures.at(recipe.artwork).bytes : png_of(texels.base_colour);
+        },
+        [&] { textures.metallic_roughness = png_of(texels.metallic_roughness); }};
+    parallel_for(encodings.size(), [&](std::size_t i) {
+        encodings.at(i)();
+        if (on_step) on_step();
+    });
+    if (!recipe.card.back.empty())
+        textures.back = texels.back.empty() ? pictures.at(recipe.card.back).bytes : png_of(texels.back);
+    return textures;
 }
 
 }  // namespace rowland::diffraction::foil

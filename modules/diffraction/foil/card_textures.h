@@ -1,7 +1,7 @@
 #pragma once
 
 #include <cstddef>
-#include <optional>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -10,21 +10,35 @@
 
 namespace rowland::diffraction::foil {
 
-/// An encoded picture, or one value for the whole surface where `bytes` is empty.
-struct CardTextures {
-    FoilLayers layers;
-    std::vector<std::byte> base_colour;         ///< PNG or JPEG
-    std::vector<std::byte> metallic_roughness;  ///< PNG; empty: `metallic` and `roughness` everywhere
+/// The pictures of a card before they are encoded: three values per texel of `area`, row by row from the top.
+struct CardTexels {
+    Area area = {};
+    FoilLayers layers = {};
+    std::vector<std::uint8_t> base_colour = {};         ///< sRGB; empty: the artwork's own file does
+    std::vector<std::uint8_t> metallic_roughness = {};  ///< empty: `metallic` and `roughness` everywhere
     double metallic = 0.0;
     double roughness = 0.0;
-    std::vector<std::byte> grooves;  ///< PNG of 16 bits; empty: one direction everywhere
+    std::vector<std::uint16_t> grooves = {};  ///< empty: one direction everywhere
+    std::vector<std::uint8_t> back = {};      ///< sRGB; empty: there is none, or its own file does
 };
 
-/// The textures of a card's front. Throws Error (input) as make_card() does.
-CardTextures card_textures(const Recipe& recipe, const NamedPictures& pictures, const std::string& file,
+/// The texels of a card. Throws Error (input) as make_card() does.
+CardTexels card_texels(const Recipe& recipe, const NamedPictures& pictures, const std::string& file,
+                       const OnStep& on_step = {});
+
+/// The pictures of CardTexels, each a PNG or JPEG; empty where there is none.
+struct CardTextures {
+    std::vector<std::byte> base_colour;
+    std::vector<std::byte> metallic_roughness;
+    std::vector<std::byte> grooves;  ///< PNG of 16 bits
+    std::vector<std::byte> back;
+};
+
+CardTextures card_textures(const CardTexels& texels, const Recipe& recipe, const NamedPictures& pictures,
                            const OnStep& on_step);
 
-/// A picture of a card's back as it is drawn: the file's own bytes where they do, else a PNG.
-std::vector<std::byte> back_texture(const Recipe& recipe, const NamedPicture& picture);
+/// The binary glTF file of make_card().
+std::vector<std::byte> card_file(const Recipe& recipe, const CardTexels& texels, CardTextures textures,
+                                 const std::string& file);
 
 }  // namespace rowland::diffraction::foil

@@ -155,7 +155,8 @@ std::optional<FoilType> foil_type(std::string_view name) {
         return std::array<FoilType (*)(), sizeof...(I)>{+[] { return FoilType(std::in_place_index<I>); }...};
     }
     (std::make_index_sequence<kTypes.size()>());
-    const auto found = std::ranges::find(kTypes, name, &TypeName::name);
+    const auto found =
+        std::find_if(kTypes.begin(), kTypes.end(), [&](const TypeName& type) { return type.name == name; });
     if (found == kTypes.end()) return std::nullopt;
     return kMake[static_cast<std::size_t>(found - kTypes.begin())]();
 }

@@ -1,7 +1,8 @@
-import { Matrix4, type BufferGeometry, type Mesh, type MeshPhysicalMaterial } from "three";
+import { DataTexture, LoaderUtils, Matrix4, RGBAFormat, UnsignedShortType, type BufferGeometry, type Mesh, type MeshPhysicalMaterial, type Texture } from "three";
 import type { GLTF, GLTFLoaderPlugin, GLTFParser } from "three/examples/jsm/loaders/GLTFLoader.js";
 import { filmOf, type Iridescence } from "./film_table.js";
 import { flatNormal } from "./frames.js";
+import { decodePng16 } from "./png16.js";
 import type { Rowland } from "./rowland.js";
 import type { FilmParameters } from "./with_film.js";
 import type { GratingParameters } from "./with_grating.js";
@@ -41,7 +42,26 @@ export abstract class GratingPlugin extends MaterialPlugin {
         const grating = this.extension(material) as { grooveTexture?: { index: number } } | undefined;
         if (!grating) return;
         Object.assign(parameters, { grating, rowland: this.rowland });
-        if (grating.grooveTexture) await this.parser.assignTexture(parameters, "grooveTexture", grating.grooveTexture);
+        if (!grating.grooveTexture) return;
+        await this.parser.assignTexture(parameters, "grooveTexture", grating.grooveTexture);
+        parameters.grooveTexture = await this.exact(parameters.grooveTexture!, grating.grooveTexture.index);
+    }
+
+    /** A texture with all bits of its file, where that is a PNG of 16 bits: browsers decode it to 8. */
+    private async exact(texture: Texture, index: number): Promise<Texture> {
+        const { json, fileLoader, options } = this.parser;
+        const { bufferView, uri } = json.images[json.textures[index].source] ?? {};
+        if (bufferView === undefined && !/^data:image.png|\.png$/i.test(uri)) return texture;
+        const file = bufferView === undefined ? fileLoader.loadAsync(LoaderUtils.resolveURL(uri, options.path)) : this.parser.getDependency("bufferView", bufferView);
+        const picture = await decodePng16(new Uint8Array((await file) as ArrayBuffer));
+        if (!picture) return texture;
+        const { wrapS, wrapT, magFilter, minFilter, channel, rotation, name } = texture;
+        const exact = new DataTexture(picture.data, picture.width, picture.height, RGBAFormat, UnsignedShortType);
+        Object.assign(exact, { wrapS, wrapT, magFilter, minFilter, channel, rotation, name });
+        exact.offset.copy(texture.offset);
+        exact.repeat.copy(texture.repeat);
+        texture.dispose();
+        return exact;
     }
 
     /** Gives each mesh a material, so that flat ones keep their maps beside curved ones; flat parts that face one way share one. */

@@ -332,7 +332,7 @@ export class GratingState {
             this.flag("HALF_TURN", map.halfTurn);
             this.showAs("planar", map.pitch !== null);
             rowland.onUpdate();
-            if (lightVersion !== rowland.lightVersion) return; // the full map is for the next light
+            if (!surface.isSettled(rowland.lightVersion, "planar")) return surface.forget(); // the full map is for the next light or pose
         }
     }
 

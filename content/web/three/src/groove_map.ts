@@ -1,11 +1,12 @@
 import { mipmapTexture, Vector2, Vector4, type Texture } from "./engine.js";
+import { mostOf } from "./groove_moments.js";
 import type { Rowland } from "./rowland.js";
 
 export type Wrap = "clamp" | "repeat" | "mirror";
 
 /** A groove texture's texels: R is the rotation / π, G half the pitch over the material's; 0: no grating. */
 export interface GrooveImage {
-    /** RGBA, the row at v = 0 first. */
+    /** RGBA, bytes or a Uint16Array, the row at v = 0 first. */
     readonly bytes: ArrayLike<number>;
     readonly width: number;
     readonly height: number;
@@ -40,7 +41,7 @@ function wrapped(index: number, size: number, wrap: Wrap): number {
 export function rotationAt({ bytes, width, height, wraps, nearest, uvLinear: m, uvOffset }: GrooveImage, x: number, y: number): number {
     const [u, v] = [m.x * x + m.z * y + uvOffset.x, m.y * x + m.w * y + uvOffset.y];
     const red = (column: number, row: number) =>
-        (Math.PI / 255) * bytes[4 * (wrapped(row, height, wraps[1]) * width + wrapped(column, width, wraps[0]))];
+        (Math.PI / mostOf(bytes)) * bytes[4 * (wrapped(row, height, wraps[1]) * width + wrapped(column, width, wraps[0]))];
     if (nearest) return red(Math.floor(u * width), Math.floor(v * height));
     const [left, below] = [u * width - 0.5, v * height - 0.5];
     const [column, row] = [Math.floor(left), Math.floor(below)];

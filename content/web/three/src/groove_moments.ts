@@ -44,14 +44,18 @@ function halved({ width, height, data }: Level): Level {
     return { ...to, data: half };
 }
 
+/** The value of a texel that stands for 1: of bytes, or of 16 bits. */
+export const mostOf = (texels: ArrayLike<number>) => (texels instanceof Uint16Array ? 65535 : 255);
+
 function momentsOf(bytes: ArrayLike<number>, even: boolean, gaps: boolean, smallest: number): Float32Array {
     const moments = new Float32Array(bytes.length);
+    const most = mostOf(bytes);
     for (let i = 0; i < bytes.length; i += 4) {
         const green = bytes[i + 1];
         moments[i] = moments[i + 1] = 0.5;
         if (green === 0) continue;
-        const angle = ((even ? 2 : 1) * Math.PI * bytes[i]) / 255;
-        const inverse = smallest / ((2 * green) / 255);
+        const angle = ((even ? 2 : 1) * Math.PI * bytes[i]) / most;
+        const inverse = smallest / ((2 * green) / most);
         moments[i] += 0.5 * Math.cos(angle);
         moments[i + 1] += 0.5 * Math.sin(angle);
         moments[i + 2] = inverse;
@@ -70,13 +74,13 @@ function halves({ width, height, data }: Level): MomentLevel {
     return { width, height, moments, rest };
 }
 
-/** The moments of modules/diffraction/runtime/groove_map.h, of RGBA bytes, the row at v = 0 first. */
+/** The moments of modules/diffraction/runtime/groove_map.h, of RGBA, bytes or 16 bits, the row at v = 0 first. */
 export function grooveMoments(bytes: ArrayLike<number>, width: number, height: number, even: boolean, mipmaps: boolean): GrooveMoments {
     const greens = new Set<number>();
     for (let i = 1; i < bytes.length; i += 4) greens.add(bytes[i]);
     const gaps = greens.delete(0);
-    const factors = [...greens].map((green) => (2 * green) / 255);
-    const [smallest, largest] = factors.length > 0 ? [Math.min(...factors), Math.max(...factors)] : [1, 1];
+    const factors = [...greens].map((green) => (2 * green) / mostOf(bytes)).sort((a, b) => a - b);
+    const [smallest = 1, largest = 1] = [factors[0], factors[factors.length - 1]];
     const levels: Level[] = [{ width, height, data: momentsOf(bytes, even, gaps, smallest) }];
     for (let last = levels[0]; mipmaps && last.width * last.height > 1; levels.push(last)) last = halved(last);
     return { smallest, largest, gaps, levels: levels.map(halves) };

@@ -48,7 +48,7 @@ export function mipmapTexture(levels: { width: number; height: number; data: Uin
     return texture;
 }
 
-/** RGBA bytes, the row at v = 0 first. */
+/** RGBA, bytes or a Uint16Array, the row at v = 0 first. */
 function bytesOf(texture: Texture): ArrayLike<number> {
     const image = texture.image as { data?: ArrayLike<number>; width: number; height: number };
     const { width, height } = image;
@@ -60,7 +60,7 @@ function bytesOf(texture: Texture): ArrayLike<number> {
     }
     if (data.length !== 4 * width * height) throw new Error("grooveTexture: expected a texture of RGBA bytes");
     if (!texture.flipY) return data;
-    const flipped = new Uint8Array(data.length);
+    const flipped = (data as Uint8Array).slice();
     for (let row = 0; row < height; ++row)
         for (let i = 0; i < 4 * width; ++i) flipped[4 * width * row + i] = data[4 * width * (height - 1 - row) + i];
     return flipped;

@@ -61,10 +61,10 @@ const WEBGPU = ["--enable-unsafe-webgpu", "--use-webgpu-adapter=swiftshader", "-
 
 /**
  * What the page posts to /result. `headers`: those of a path, beside its type; `requests` gets the paths that are asked for;
- * `webgpu`: the page may use it.
+ * `webgpu`: the page may use it; `flags`: further ones of Chromium.
  */
 export async function resultOf(page, task, { files = {}, folder = packageFolder, headers = () => ({}), seconds = 240, size = "800,600",
-    requests = [], webgpu = false } = {}) {
+    requests = [], webgpu = false, flags = [] } = {}) {
     let server, browser, tools, timer;
     const profile = mkdtempSync(join(tmpdir(), "rowland-chromium-"));
     try {
@@ -72,7 +72,7 @@ export async function resultOf(page, task, { files = {}, folder = packageFolder,
             server = await serve(task, files, folder, headers, requests, resolve, (command) => tools.command(command));
             timer = setTimeout(() => reject(new Error(`no result of ${page} in ${seconds} s`)), 1000 * seconds);
             browser = spawn(chromium(), ["--headless=new", "--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader",
-                "--enable-unsafe-swiftshader", ...(webgpu ? WEBGPU : []), "--remote-debugging-pipe", `--window-size=${size}`, `--user-data-dir=${profile}`,
+                "--enable-unsafe-swiftshader", ...(webgpu ? WEBGPU : []), ...flags, "--remote-debugging-pipe", `--window-size=${size}`, `--user-data-dir=${profile}`,
                 `http://127.0.0.1:${server.address().port}/${page}`], { stdio: ["ignore", "ignore", "ignore", "pipe", "pipe"], detached: true });
             tools = new DevTools(browser);
             browser.on("error", reject);

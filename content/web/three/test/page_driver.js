@@ -169,16 +169,16 @@ async function wiped() {
     return { pictures: { drawn, reference }, part: seen.length / reference.data.length, drawn: mean(drawn), reference: mean(reference) };
 }
 
-/** A phone, upright, whose pixels are few. */
-async function holdPhone() {
-    await devtools("Emulation.setDeviceMetricsOverride", { width: 390, height: 844, deviceScaleFactor: 1, mobile: true });
+/** A phone, upright, whose pixels are few: so many for each of CSS. */
+async function holdPhone(pixels = 1) {
+    await devtools("Emulation.setDeviceMetricsOverride", { width: 390, height: 844, deviceScaleFactor: pixels, mobile: true });
     await devtools("Emulation.setTouchEmulationEnabled", { enabled: true, maxTouchPoints: 2 });
     await until("the phone", () => innerWidth === 390);
 }
 
 /** Where the controls are when each is scrolled to, and how far the page scrolls sideways. */
 function layout() {
-    const controls = [...document.querySelectorAll("#panel input, #panel select")].filter((control) => control.checkVisibility());
+    const controls = [...document.querySelectorAll("#panel input, #panel select, #panel button, #panel summary")].filter((control) => control.checkVisibility());
     const boxes = controls.map((control) => {
         const target = control.type === "checkbox" ? control.closest("label") : control;
         target.scrollIntoView({ block: "nearest" });
@@ -234,7 +234,8 @@ async function visit() {
         await image.decode();
         return post({ ...result, said: said(), alt: image.alt, size: [image.naturalWidth, image.naturalHeight], errors: [] });
     }
-    if (limits.has("phone")) await holdPhone();
+    if (limits.has("phone")) await holdPhone(limits.has("foil") ? 0.5 : 1);
+    if (limits.has("foil")) return post({ ...result, ...(await foilVisit(result.pictures)) });
     // Every flat sample; the ball's table takes seconds.
     await until("the first light", () => Number(document.documentElement.dataset.lit) >= 4);
     const { processInfo } = await devtools("SystemInfo.getProcessInfo");

@@ -1,0 +1,105 @@
+// What a visitor does in the foil studio, on a phone: before page_driver.js, whose functions it takes.
+let offered; // the last card that the page gave to save
+const objectUrl = URL.createObjectURL;
+URL.createObjectURL = (blob) => {
+    if (blob.type === "model/gltf-binary") offered = blob;
+    return objectUrl(blob);
+};
+let copied = "";
+navigator.clipboard.writeText = async (text) => void (copied = text);
+let orientations = 0;
+addEventListener("deviceorientation", ({ beta }) => (orientations += beta === null ? 0 : 1));
+
+const base64 = (blob) => new Promise((resolve) => {
+    const reader = Object.assign(new FileReader(), { onload: () => resolve(reader.result.split(",")[1]) });
+    reader.readAsDataURL(blob);
+});
+const studio = () => document.getElementById("studio");
+const tilt = () => JSON.parse(document.documentElement.dataset.tilt);
+/** The card of what was asked for is shown, with its light. */
+async function made() {
+    await wait(50); // the page asks for the full card in a task of its own
+    await until("the card", () => studio().dataset.busy === "false");
+}
+
+/** With a window in its ink, where the foil shows. */
+async function artwork() {
+    const canvas = new OffscreenCanvas(126, 176);
+    const context = canvas.getContext("2d");
+    for (let row = 0; row < 176; ++row) {
+        context.fillStyle = `rgb(${row} 40 ${175 - row})`;
+        context.fillRect(0, row, 126, 1);
+    }
+    context.clearRect(20, 20, 86, 110);
+    return new File([await canvas.convertToBlob({ type: "image/png" })], "mine.png", { type: "image/png" });
+}
+
+function drop(file) {
+    const dropped = new DataTransfer();
+    dropped.items.add(file);
+    dispatchEvent(new DragEvent("drop", { dataTransfer: dropped }));
+}
+
+const changedPart = (a, b) => [...a.data.keys()].filter((i) => Math.abs(a.data[i] - b.data[i]) > 8).length / a.data.length;
+
+async function copiedLink() {
+    copied = "";
+    document.getElementById("copy-link").click();
+    await until("the link", () => copied !== "");
+    return copied;
+}
+
+async function foilVisit(pictures) {
+    const times = {};
+    const mark = (name) => (times[name] = Math.round(performance.now() / 1000));
+    await until("the first card", () => studio()?.dataset.busy === "false");
+    await until("the thumbnails", () => studio().dataset.thumbnails === "true");
+    mark("thumbnails");
+    await settled();
+    const before = frames();
+    await wait(2000);
+    const framesAtRest = frames() - before;
+    mark("rest");
+
+    const art = await artwork();
+    drop(art);
+    await until("the artwork's button", () => document.getElementById("artwork-mine.png"));
+    await made();
+    pictures.ice = await picture();
+    mark("artwork");
+    document.getElementById("type-hexagons").click();
+    await made();
+    pictures.hexagons = await picture();
+    mark("type");
+
+    const [x, y] = spot(0, 0);
+    const held = tilt();
+    await swipe([[[x, y], [x + 20, y + 10]]]);
+    const dragged = tilt();
+    await devtools("DeviceOrientation.setDeviceOrientationOverride", { alpha: 0, beta: 40, gamma: 0 });
+    await until("the phone's orientation", () => orientations > 0);
+    const neutral = tilt();
+    pictures.dragged = await picture();
+    mark("drag");
+    await devtools("DeviceOrientation.setDeviceOrientationOverride", { alpha: 0, beta: 52, gamma: -6 });
+    await until("another tilt", () => String(tilt()) !== String(neutral));
+    const tilted = tilt();
+    pictures.tilted = await picture();
+    mark("tilt");
+
+    const link = await copiedLink();
+    document.getElementById("with-art").click();
+    const linkWithArt = await copiedLink();
+    document.getElementById("download").click();
+    await until("the file", () => offered);
+    const glb = await base64(offered);
+    drop(new File(["no picture"], "broken.png", { type: "image/png" }));
+    await until("word of the broken file", () => said() !== "");
+    const found = { layout: layout(), violations: await violations() };
+    mark("file");
+    await devtools("DeviceOrientation.clearDeviceOrientationOverride", {});
+    return {
+        ...found, times, framesAtRest, tilts: { held, dragged, neutral, tilted }, link, linkWithArt, glb, art: await base64(art), broken: said(),
+        changed: { type: changedPart(pictures.ice, pictures.hexagons), tilt: changedPart(pictures.dragged, pictures.tilted) },
+    };
+}
