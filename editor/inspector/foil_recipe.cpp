@@ -21,7 +21,8 @@ namespace foil = diffraction::foil;
 namespace {
 
 constexpr std::uint64_t kLargestRecipe = 1 << 20;
-constexpr int kLargestSide = 8192;  ///< texels; what a card takes at most
+constexpr const char* kFirstType = "cracked_ice";  ///< of a recipe that names none
+constexpr int kLargestSide = 8192;                 ///< texels; what a card takes at most
 constexpr std::uint64_t kLargestPicture = std::uint64_t{256} << 20;
 
 /// What a control shows of a member; the recipe's schema has its range and default.
@@ -218,7 +219,8 @@ FoilPictures::Picture FoilPictures::at(const std::string& path, std::optional<in
 
 FoilRecipe FoilRecipe::make_new(const std::filesystem::path& artwork) {
     FoilRecipe made;
-    const Json json = {{"artwork", std::filesystem::absolute(artwork).lexically_normal().string()}};
+    const Json json = {{"artwork", std::filesystem::absolute(artwork).lexically_normal().string()},
+                       {"foil", {{"type", kFirstType}}}};
     made.read_pictures(json);
     made.step(json, {});
     return made;
@@ -229,8 +231,9 @@ FoilRecipe FoilRecipe::open(const std::filesystem::path& path) {
     foil::parse_foil_recipe(nlohmann::json(json), path.string());
     FoilRecipe made;
     made.path_ = std::filesystem::absolute(path);
-    const Json absolute = with_names(
+    Json absolute = with_names(
         json, [&](const std::filesystem::path& name) { return (made.path_.parent_path() / name).lexically_normal(); });
+    if (!absolute.contains("foil")) absolute["foil"] = {{"type", kFirstType}};
     made.read_pictures(absolute);
     made.step(absolute, {});
     made.saved_ = made.json_;
@@ -247,8 +250,9 @@ void FoilRecipe::read_pictures(const Json& json) {
 const Field* FoilRecipe::field_of(std::string_view refusal) const {
     for (const Field& field : fields()) {
         const Json value = value_of(field, json_);
-        const bool is_named = field.kind == FieldKind::Name && value.is_string() &&
-                              refusal.starts_with(std::filesystem::path(value.get<std::string>()).filename().string());
+        const bool is_named =
+            field.kind == FieldKind::Name && value.is_string() &&
+            refusal.starts_with(std::filesystem::path(value.get<std::string>()).filename().string() + ":");
         if (is_named || refusal.find(": " + field.pointer + ":") != std::string_view::npos ||
             refusal.find(": " + field.pointer + "/") != std::string_view::npos)
             return &field;
@@ -259,7 +263,7 @@ const Field* FoilRecipe::field_of(std::string_view refusal) const {
 std::string FoilRecipe::type() const {
     const Json::json_pointer at("/foil/type");
     const Json name = json_.contains(at) ? json_[at] : Json();
-    return name.is_string() ? name.get<std::string>() : "cracked_ice";
+    return name.is_string() ? name.get<std::string>() : kFirstType;
 }
 
 void FoilRecipe::accept(Json json) {

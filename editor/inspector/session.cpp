@@ -51,7 +51,8 @@ Session::Session(const post::OcioConfig& config, const SessionSettings& settings
     : light({settings.content_folder / "probes", settings.captures}, settings.probe_mapping, messages),
       opened(settings.content_folder / "materials", messages),
       view(config, settings.still, opened, light, messages),
-      measurement(opened, light, view, messages) {}
+      measurement(opened, light, view, messages),
+      still_(settings.still) {}
 
 void Session::open(const std::filesystem::path& path) {
     messages.attempt([&] {
@@ -77,6 +78,7 @@ bool Session::is_replaced_by(const std::filesystem::path& path) const {
 void Session::start_foil(FoilRecipe recipe) {
     messages.say(recipe.name() + ": a foil card");
     foil = std::make_unique<FoilStudio>(std::move(recipe), messages);
+    foil->tilting = !still_;
 }
 
 void Session::make_foil(const std::filesystem::path& artwork) {
@@ -135,11 +137,12 @@ bool Session::take_capture() {
 }
 
 bool Session::update() {
-    bool news = opened.update();
-    news = take_capture() || news;
+    bool news = take_capture();
     if (foil) {
         news = foil->update() || news;
         view.card = foil->card();
+    } else {
+        news = opened.update() || news;  // a document that is not shown is not cooked
     }
     view.update();
     news = light.update() || news;

@@ -23,7 +23,7 @@ struct SessionSettings {
     std::filesystem::path content_folder;  ///< holds materials/ and probes/
     std::string probe_mapping = "auto";    ///< of images
     std::filesystem::path captures{};      ///< folder of the recipes of captured probes; empty: none
-    bool still = false;                    ///< for captures: maps are complete in the second frame
+    bool still = false;                    ///< for captures: maps are complete in the second frame, no card moves
 };
 
 /// The inspector without its controls. Its parts are updated together, once a frame. Bad input becomes a message and
@@ -65,7 +65,7 @@ struct Session {
     bool update();
     /// Whether background work for the picture or the panes is not complete.
     bool busy() const {
-        return opened.busy() || light.loading() || (foil ? foil->busy() : measurement.busy()) || capturing();
+        return light.loading() || (foil ? foil->busy() : opened.busy() || measurement.busy()) || capturing();
     }
 
  private:
@@ -73,6 +73,7 @@ struct Session {
     bool take_capture();
     void start_foil(FoilRecipe recipe);
 
+    bool still_;
     std::future<int> capture_;
     bool was_busy_ = false;  ///< after the last update
 };
