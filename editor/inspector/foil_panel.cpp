@@ -209,12 +209,12 @@ void FoilPanel::draw_control(FoilStudio& studio, const Field& field, const FoilA
     }
 }
 
-void FoilWallPanel::draw(FoilStudio& studio, const View& view, const post::OcioConfig& config, float pixels_per_unit,
-                         float seconds, ControlMap& controls) {
+void FoilWallPanel::draw(FoilStudio& studio, const View& view, const post::OcioConfig& config, bool still,
+                         float pixels_per_unit, float seconds, ControlMap& controls) {
     constexpr float kWidth = 96.0F;  // of a card, in screen coordinates
     const FoilWall& wall = studio.wall();
     if (!wall.object() || !view.light()) return ImGui::TextDisabled("Preparing the types of foil…");
-    if (!preview_) preview_.emplace(config, false);
+    if (!preview_) preview_.emplace(config, still);
     const scene::Camera camera = FoilWall::camera();
     PreviewInputs inputs;
     inputs.size = wall.size(kWidth * pixels_per_unit);
@@ -226,7 +226,7 @@ void FoilWallPanel::draw(FoilStudio& studio, const View& view, const post::OcioC
     inputs.surfaces = wall.surfaces();
     inputs.tilt = studio.card().tilt;
     pause_s_ -= seconds;
-    if (pause_s_ <= 0.0F && studio.film() == nullptr) {
+    if ((still || pause_s_ <= 0.0F) && studio.film() == nullptr) {
         const auto begin = std::chrono::steady_clock::now();
         preview_->show(inputs);
         preview_->draw(seconds);

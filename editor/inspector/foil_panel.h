@@ -36,8 +36,8 @@ class FoilPanel {
 /// The types of foil as pictures of the user's card, which tilt with it; a click chooses one.
 class FoilWallPanel {
  public:
-    /// Into the current ImGui window.
-    void draw(FoilStudio& studio, const View& view, const post::OcioConfig& config, float pixels_per_unit,
+    /// Into the current ImGui window. `still`: as for Preview.
+    void draw(FoilStudio& studio, const View& view, const post::OcioConfig& config, bool still, float pixels_per_unit,
               float seconds, ControlMap& controls);
 
  private:

@@ -1,6 +1,7 @@
 #include "editor/inspector/preview.h"
 
 #include <algorithm>
+#include <chrono>
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/matrix.hpp>
@@ -130,6 +131,8 @@ scene::Camera opening_camera() {
 Preview::Side::Side(const post::OcioConfig& config, bool still) : picture(config, {}, {1, 1}) {
     diffraction::DiffractionSettings settings;
     if (still) settings.map_pace = diffraction::MapPace::Whole;
+    // Without a first map a flat grating is shaded by a table that the frame would bake, for seconds.
+    settings.map_wait = std::chrono::seconds(60);
     modules::register_material_types(picture.renderer(), {.diffraction = settings});
     root = world.create();
     world.add(root, scene::Transform{});

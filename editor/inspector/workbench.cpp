@@ -324,7 +324,8 @@ void Workbench::draw_foil_tiles(const platform::InputState& input, const Workben
     if (begin_tile("Foil card", {0.0F, top}, {sizes.left, height})) foil_.draw(foil, foil_actions(), controls_);
     ImGui::End();
     if (begin_tile("Types of foil", {frame.size.x - sizes.right, top}, {sizes.right, height}))
-        foil_wall_.draw(foil, session_.view, config_, frame.pixels_per_unit, frame.seconds, controls_);
+        foil_wall_.draw(foil, session_.view, config_, !frame.in_window, frame.pixels_per_unit, frame.seconds,
+                        controls_);
     ImGui::End();
     if (begin_tile("Card", {sizes.left + gap, top}, {middle, height},
                    ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse))
