@@ -16,14 +16,42 @@ namespace {
 constexpr NumberRange kAngle{.minimum = -360.0, .maximum = 360.0};
 constexpr NumberRange kCellSize{.minimum = 0.1, .maximum = 200.0};  ///< millimetres
 
+// Readers of members with defaults, which the schema states for editors.
+
+void state_default(JsonReader& json, const std::string& key, const nlohmann::json& value) {
+    if (json.is_recording_schema()) json.annotate(key, nlohmann::json{{"default", value}}.dump());
+}
+
+double number_or(JsonReader& json, const std::string& key, double fallback, NumberRange range) {
+    const double value = json.number_or(key, fallback, range);
+    state_default(json, key, fallback);
+    return value;
+}
+
+std::int64_t integer_or(JsonReader& json, const std::string& key, std::int64_t fallback, std::int64_t minimum,
+                        std::int64_t maximum) {
+    const std::int64_t value = json.integer_or(key, fallback, minimum, maximum);
+    state_default(json, key, fallback);
+    return value;
+}
+
+template <typename Vector>
+Vector vector_or(JsonReader& json, const std::string& key, const Vector& fallback, NumberRange range) {
+    const Vector value = read_vector_or(json, key, fallback, range);
+    nlohmann::json numbers = nlohmann::json::array();
+    for (int i = 0; i < Vector::length(); ++i) numbers.push_back(fallback[i]);
+    state_default(json, key, numbers);
+    return value;
+}
+
 glm::dvec2 read_centre(JsonReader& json) {
-    return read_vector_or(json, "centre", glm::dvec2(0.5), {.minimum = -1.0, .maximum = 2.0});
+    return vector_or(json, "centre", glm::dvec2(0.5), {.minimum = -1.0, .maximum = 2.0});
 }
 
 FoilType read_pillars(JsonReader& json) {
     Pillars pillars;
-    pillars.band_mm = json.number_or("band_mm", pillars.band_mm, kCellSize);
-    pillars.pitch_range = json.number_or("pitch_range", pillars.pitch_range, {.minimum = 1.1, .maximum = 2.0});
+    pillars.band_mm = number_or(json, "band_mm", pillars.band_mm, kCellSize);
+    pillars.pitch_range = number_or(json, "pitch_range", pillars.pitch_range, {.minimum = 1.1, .maximum = 2.0});
     return pillars;
 }
 
@@ -39,28 +67,28 @@ FoilType read_radial(JsonReader& json) {
 template <typename Cells>
 FoilType read_cells(JsonReader& json) {
     Cells cells;
-    cells.size_mm = json.number_or("size_mm", cells.size_mm, kCellSize);
-    cells.directions = static_cast<int>(json.integer_or("directions", cells.directions, 2, 180));
+    cells.size_mm = number_or(json, "size_mm", cells.size_mm, kCellSize);
+    cells.directions = static_cast<int>(integer_or(json, "directions", cells.directions, 2, 180));
     return cells;
 }
 
 FoilType read_cosmos(JsonReader& json) {
-    return Cosmos{.size_mm = json.number_or("size_mm", Cosmos().size_mm, kCellSize)};
+    return Cosmos{.size_mm = number_or(json, "size_mm", Cosmos().size_mm, kCellSize)};
 }
 
 FoilType read_cracked_ice(JsonReader& json) {
-    return CrackedIce{.size_mm = json.number_or("size_mm", CrackedIce().size_mm, kCellSize)};
+    return CrackedIce{.size_mm = number_or(json, "size_mm", CrackedIce().size_mm, kCellSize)};
 }
 
 FoilType read_glitter(JsonReader& json) {
-    return Glitter{.size_um = json.number_or("size_um", Glitter().size_um, {.minimum = 10.0, .maximum = 2000.0})};
+    return Glitter{.size_um = number_or(json, "size_um", Glitter().size_um, {.minimum = 10.0, .maximum = 2000.0})};
 }
 
 FoilType read_brushed(JsonReader& json) {
     Brushed brushed;
-    brushed.stroke_mm = json.number_or("stroke_mm", brushed.stroke_mm, {.minimum = 0.02, .maximum = 5.0});
-    brushed.length_mm = json.number_or("length_mm", brushed.length_mm, {.minimum = 0.1, .maximum = 1000.0});
-    brushed.spread_deg = json.number_or("angle_spread_deg", brushed.spread_deg, {.minimum = 0.0, .maximum = 45.0});
+    brushed.stroke_mm = number_or(json, "stroke_mm", brushed.stroke_mm, {.minimum = 0.02, .maximum = 5.0});
+    brushed.length_mm = number_or(json, "length_mm", brushed.length_mm, {.minimum = 0.1, .maximum = 1000.0});
+    brushed.spread_deg = number_or(json, "angle_spread_deg", brushed.spread_deg, {.minimum = 0.0, .maximum = 45.0});
     return brushed;
 }
 
@@ -68,9 +96,9 @@ FoilType read_two_pictures(JsonReader& json) {
     TwoPictures two;
     two.pictures = {json.file_name("picture_a", "the name of a picture file"),
                     json.file_name("picture_b", "the name of a picture file")};
-    two.lamp_deg = json.number_or("lamp_deg", two.lamp_deg, {.minimum = 5.0, .maximum = 80.0});
-    two.tilts_deg = read_vector_or(json, "tilts_deg", two.tilts_deg, {.minimum = -60.0, .maximum = 60.0});
-    two.cell_mm = json.number_or("cell_mm", two.cell_mm, {.minimum = 0.02, .maximum = 2.0});
+    two.lamp_deg = number_or(json, "lamp_deg", two.lamp_deg, {.minimum = 5.0, .maximum = 80.0});
+    two.tilts_deg = vector_or(json, "tilts_deg", two.tilts_deg, {.minimum = -60.0, .maximum = 60.0});
+    two.cell_mm = number_or(json, "cell_mm", two.cell_mm, {.minimum = 0.02, .maximum = 2.0});
     if (json.is_recording_schema()) return two;
     if (const std::optional<Refusal> refused = tilt_refusal(two))
         json.fail(refused->key, refused->found, refused->expected, refused->remedy);
@@ -78,13 +106,13 @@ FoilType read_two_pictures(JsonReader& json) {
 }
 
 FoilType read_lens(JsonReader& json) {
-    return Lens{.focal_mm = json.number_or("focal_mm", Lens().focal_mm, {.minimum = 5.0, .maximum = 1000.0}),
+    return Lens{.focal_mm = number_or(json, "focal_mm", Lens().focal_mm, {.minimum = 5.0, .maximum = 1000.0}),
                 .centre = read_centre(json)};
 }
 
 FoilType read_own(JsonReader& json) {
     return Own{.drawing = json.file_name("drawing", "the name of a picture file"),
-               .smooth_mm = json.number_or("smooth_mm", Own().smooth_mm, {.minimum = 0.05, .maximum = 20.0})};
+               .smooth_mm = number_or(json, "smooth_mm", Own().smooth_mm, {.minimum = 0.05, .maximum = 20.0})};
 }
 
 struct TypeName {
@@ -108,11 +136,11 @@ constexpr std::array<TypeName, std::variant_size_v<FoilType>> kTypes = {{{"pilla
 
 Foil read_foil(JsonReader json) {
     Foil foil;
-    foil.direction_deg = json.number_or("direction_deg", foil.direction_deg, kAngle);
-    foil.scale = json.number_or("scale", foil.scale, {.minimum = 0.05, .maximum = 20.0});
-    foil.groove_um = json.number_or("groove_um", foil.groove_um, {.minimum = 0.6, .maximum = 10.0});
+    foil.direction_deg = number_or(json, "direction_deg", foil.direction_deg, kAngle);
+    foil.scale = number_or(json, "scale", foil.scale, {.minimum = 0.05, .maximum = 20.0});
+    foil.groove_um = number_or(json, "groove_um", foil.groove_um, {.minimum = 0.6, .maximum = 10.0});
     if (json.has("spread_deg")) foil.spread_deg = json.number("spread_deg", {.minimum = 1.0, .maximum = 30.0});
-    foil.seed = static_cast<std::uint32_t>(json.integer_or("seed", foil.seed, 0, 0xFFFFFFFF));
+    foil.seed = static_cast<std::uint32_t>(integer_or(json, "seed", foil.seed, 0, 0xFFFFFFFF));
     json.variant("type", foil_type_names(),
                  [&](JsonReader& member, std::size_t type) { foil.type = kTypes[type].read(member); });
     json.finish();
@@ -124,10 +152,10 @@ Foil read_foil(JsonReader json) {
 
 CardShape read_card(JsonReader json) {
     CardShape card;
-    card.width_mm = json.number_or("width_mm", card.width_mm, {.minimum = 5.0, .maximum = 1000.0});
-    card.height_mm = json.number_or("height_mm", card.height_mm, {.minimum = 5.0, .maximum = 1000.0});
-    card.thickness_mm = json.number_or("thickness_mm", card.thickness_mm, {.minimum = 0.01, .maximum = 10.0});
-    card.corner_mm = json.number_or("corner_mm", card.corner_mm, {.minimum = 0.0, .maximum = 500.0});
+    card.width_mm = number_or(json, "width_mm", card.width_mm, {.minimum = 5.0, .maximum = 1000.0});
+    card.height_mm = number_or(json, "height_mm", card.height_mm, {.minimum = 5.0, .maximum = 1000.0});
+    card.thickness_mm = number_or(json, "thickness_mm", card.thickness_mm, {.minimum = 0.01, .maximum = 10.0});
+    card.corner_mm = number_or(json, "corner_mm", card.corner_mm, {.minimum = 0.0, .maximum = 500.0});
     if (json.has("back")) card.back = json.file_name("back", "the name of a picture file");
     json.finish();
     if (json.is_recording_schema()) return card;
@@ -181,11 +209,11 @@ Recipe parse_foil_recipe(JsonReader& root) {
         recipe.under = root.choice<Under>("under", {{"metal", Under::Metal}, {"paper", Under::Paper}});
     if (auto lacquer = root.object_if_there("lacquer")) {
         recipe.lacquer.gloss = lacquer->boolean_or("gloss", true);
-        recipe.lacquer.tint = read_vector_or(*lacquer, "tint", recipe.lacquer.tint, kFraction);
+        recipe.lacquer.tint = vector_or(*lacquer, "tint", recipe.lacquer.tint, kFraction);
         lacquer->finish();
     }
     if (auto card = root.object_if_there("card")) recipe.card = read_card(std::move(*card));
-    recipe.texture_px = static_cast<int>(root.integer_or("texture_px", recipe.texture_px, 512, 4096));
+    recipe.texture_px = static_cast<int>(integer_or(root, "texture_px", recipe.texture_px, 512, 4096));
     root.finish();
     return recipe;
 }
