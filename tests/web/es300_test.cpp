@@ -36,7 +36,7 @@ TEST(Es300, EveryRepresentationsProgramsCompileAndLink) {
             EXPECT_EQ(ended.code, 0) << program.name << "\n" << ended.out;
             ++linked;
         }
-    EXPECT_EQ(linked, 61);
+    EXPECT_EQ(linked, 64);
 }
 
 }  // namespace
