@@ -231,8 +231,9 @@ void FoilWallPanel::draw(FoilStudio& studio, const View& view, const post::OcioC
         preview_->show(inputs);
         preview_->draw(seconds);
         const std::chrono::duration<float> took = std::chrono::steady_clock::now() - begin;
-        // The wall takes at most a quarter of the time of a card that moves.
-        pause_s_ = 3.0F * took.count();
+        // The wall takes a quarter of the time of a card that moves; a slow first picture, for which shaders are
+        // compiled, does not stop it.
+        pause_s_ = std::min(3.0F * took.count(), 0.5F);
         ++frames_;
     }
     const float width = kWidth;

@@ -80,7 +80,8 @@ std::optional<Options> parse_options(int argc, const char* const* argv) {
     Options options;
     options.content_folder = std::filesystem::path(ROWLAND_SOURCE_DIR) / "content";
     std::string shape;
-    app.add_option("FILE", options.file, "A material or a foil recipe (.json), or a glTF file whose gratings and films to edit");
+    app.add_option("FILE", options.file,
+                   "A material or a foil recipe (.json), or a glTF file whose gratings and films to edit");
     app.add_option("--preset", options.preset, "Start from a shipped material: cd, cd_r, dvd, blu_ray, soap_film, …");
     app::add_common_options(app, options, "Write the window as PNG once all is computed, without opening a window");
     app.add_option("--shape", shape, "Shape of the preview: disc, sphere, card, sheet")

@@ -323,7 +323,9 @@ void Workbench::draw_foil_tiles(const platform::InputState& input, const Workben
     session_.view.card = foil.card();
     if (begin_tile("Foil card", {0.0F, top}, {sizes.left, height})) foil_.draw(foil, foil_actions(), controls_);
     ImGui::End();
-    if (begin_tile("Types of foil", {frame.size.x - sizes.right, top}, {sizes.right, height}))
+    // With the scrollbar always there the columns do not change from one frame to the next.
+    if (begin_tile("Types of foil", {frame.size.x - sizes.right, top}, {sizes.right, height},
+                   ImGuiWindowFlags_AlwaysVerticalScrollbar))
         foil_wall_.draw(foil, session_.view, config_, !frame.in_window, frame.pixels_per_unit, frame.seconds,
                         controls_);
     ImGui::End();

@@ -282,6 +282,8 @@ TEST_F(InspectorWindow, AnArtworkBecomesAFoilCardInAFewClicksAndAFilm) {
     click("menu New foil card…");
     click("file art.png");
     user.wait_for("foil card", "full");
+    user.wait_for("foil type tiles", " ");
+    user.facts();  // a tile finds its columns in its first frames
     click("foil type tiles");
     user.wait_for("foil", "tiles");
     click("save card");
