@@ -50,7 +50,7 @@ def titled(key):
 
 
 def property_of(field):
-    """A field with its initial value is left out of the recipe: rowland-cook then takes its default."""
+    """A field that was not set is left out of the recipe; rowland-cook then takes its default."""
     schema, name = field.schema, titled(field.key[-1])
     if "enum" in schema:
         values = schema["enum"] if field.key[-1] == "type" else ["", *schema["enum"]]
@@ -80,11 +80,13 @@ class RowlandFoil(bpy.types.PropertyGroup):
     def value(self, name):
         """The value in a recipe; None: it is left out."""
         value, rna = getattr(self, name), self.bl_rna.properties[name]
-        if rna.type == "FLOAT" and rna.is_array:
-            return None if all(a == b for a, b in zip(value, rna.default_array)) else [rounded(v) for v in value]
-        if value == rna.default and name != "foil_type":
+        listed = getattr(rna, "is_array", False)
+        initial = tuple(value) == tuple(rna.default_array) if listed else value == rna.default
+        if name != "foil_type" and (not self.is_property_set(name) or initial and "default" not in FIELDS[name].schema):
             return None
-        return rounded(value) if rna.type == "FLOAT" else value
+        if rna.type == "FLOAT":
+            return [rounded(v) for v in value] if listed else rounded(value)
+        return value
 
     def recipe(self, folder):
         """The recipe for a file in the folder."""

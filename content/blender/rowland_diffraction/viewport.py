@@ -147,8 +147,8 @@ class Tree:
 
 
 def order_group():
-    """A closure that mirrors the view into one order: s_p + v_p = k g, with k = m lambda / pitch. Its lobe is a Gaussian
-    of the standard deviations Width (of the band, across the grooves) and Lobe (along them) in s_p + v_p."""
+    """A closure that mirrors the view into one order: s_p + v_p = k g, with k = m lambda / pitch. Its lobe has the peak of
+    a Gaussian of the standard deviations Width (of the band, across the grooves) and Lobe (along them) in s_p + v_p."""
     if found := bpy.data.node_groups.get(ORDER_GROUP):
         return found
     tree = Tree(ORDER_GROUP, {"Normal": "Vector", "Grating vector": "Vector", "View normal": "Float", "View grating": "Float",
@@ -160,17 +160,17 @@ def order_group():
     cosine = tree.math("SQRT", tree.math("MAXIMUM", squared, 1e-4))
     half = tree.vector("NORMALIZE", tree.vector(
         "ADD", tree.vector("SCALE", normal, tree.math("ADD", cosine, view_normal)), tree.vector("SCALE", across, shift)))
-    # Beckmann's width is sqrt(2) standard deviations of the slope; a slope e moves s_p by 2 e s_n across the grooves,
-    # and by 2 e (v . half) along them.
+    # GGX has the peak 1 / (2 alpha), a Gaussian 1 / (sqrt(2 pi) sigma), of the slope. A slope e moves s_p by 2 e s_n
+    # across the grooves, and by 2 e (v . half) along them. Beckmann's anisotropy has no effect in Blender 3.4.
     view = tree.node("NewGeometry", output="Incoming")
-    alpha = [tree.math("MINIMUM", tree.math("DIVIDE", tree.math("MULTIPLY", of, 1 / math.sqrt(2)), by), 0.9)
+    alpha = [tree.math("MINIMUM", tree.math("DIVIDE", tree.math("MULTIPLY", of, math.sqrt(math.pi / 8)), by), 0.9)
              for of, by in ((width, cosine), (lobe, tree.vector("DOT_PRODUCT", view, half)))]
     along = tree.math("MAXIMUM", *alpha)
     roughness = tree.math("POWER", tree.math("MULTIPLY", alpha[0], along), 0.25)
-    anisotropy = tree.math("SUBTRACT", tree.math("SQRT", tree.math("DIVIDE", alpha[0], along)), 1.0)
+    anisotropy = tree.math("SUBTRACT", 1.0, tree.math("SQRT", tree.math("DIVIDE", alpha[0], along)))
     visible = tree.vector("SCALE", colour, tree.math("GREATER_THAN", squared, 0.0))
     bsdf = tree.node("BsdfAnisotropic", {"Color": visible, "Roughness": roughness, "Anisotropy": anisotropy, "Normal": half,
-                                         "Tangent": across}, distribution="BECKMANN")
+                                         "Tangent": across}, distribution="GGX")
     tree.connect(tree.outputs, [bsdf])
     return tree.tree
 
