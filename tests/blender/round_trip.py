@@ -214,7 +214,7 @@ def edit_by_panel(fields):
 
 
 def check_foil():
-    """Recipes pass the panel unchanged; a card made twice is one card, with a groove image of 16 bits on its grating."""
+    """Recipes pass the panel unchanged; a card made twice is one card, with a groove image of 16 bits."""
     from rowland_diffraction import rowland_folder
 
     recipes = rowland_folder.FOLDER / "content" / "foil"
@@ -234,7 +234,8 @@ def check_foil():
     material_count, image_count = len(bpy.data.materials), len(bpy.data.images)
     bpy.ops.rowland.foil_make()
     expect([o.name for o in bpy.data.objects if "crystal" in o.name], ["crystal"], "cards of one artwork")
-    expect((len(bpy.data.materials), len(bpy.data.images)), (material_count, image_count), "datablocks of a card made again")
+    counts = len(bpy.data.materials), len(bpy.data.images)
+    expect(counts, (material_count, image_count), "datablocks of a card made again")
     card = bpy.data.objects["crystal"]
     expect(card.location.z, 2, "the card's position")
     front = next(m for m in card.data.materials if m.rowland.text)

@@ -82,20 +82,21 @@ def render_orders(plane, material_file, picture):
 
 
 def reference(material_file, sky, frames):
-    """The same by integration over wavelengths and the probe. Colours outside of Rec.709 are clipped, as displays do."""
+    """The same by integration over wavelengths and the probe. Colours outside of Rec.709 are clipped."""
     from rowland_diffraction import rowland_folder
 
     x, y = numpy.meshgrid(*[(numpy.arange(SIZE) + 0.5) / SIZE * 2 - 1] * 2)
     view = numpy.stack([-x, -y, numpy.full_like(x, 1.4)], -1)
     view /= numpy.linalg.norm(view, axis=-1, keepdims=True)
-    rows = [to_rowland(view), *(numpy.broadcast_to(to_rowland(numpy.array(v)), view.shape) for v in ((0, 0, 1.0), (1.0, 0, 0)))]
+    normal, across = (to_rowland(numpy.broadcast_to(axis, view.shape)) for axis in ((0, 0, 1), (1, 0, 0)))
     with open(frames, "w", newline="") as file:
         table = csv.writer(file)
         table.writerow("vx,vy,vz,nx,ny,nz,gx,gy,gz".split(","))
-        table.writerows(numpy.concatenate(rows, -1).reshape(-1, 9))
+        table.writerows(numpy.concatenate([to_rowland(view), normal, across], -1).reshape(-1, 9))
     program = rowland_folder.find_program("rowland-trade")
-    printed = subprocess.run([program, "evaluate", "--material", material_file, "--probe", sky, "--probe-mapping", "equirect",
-                              "--method", "reference", "--frames", frames], check=True, capture_output=True, text=True).stdout
+    command = [program, "evaluate", "--material", material_file, "--probe", sky, "--probe-mapping", "equirect",
+               "--method", "reference", "--frames", frames]
+    printed = subprocess.run(command, check=True, capture_output=True, text=True).stdout
     xyz = numpy.array([[float(v) for v in row] for row in list(csv.reader(printed.splitlines()))[1:]])
     return (xyz @ RGB_OF_XYZ.T).clip(0).reshape(SIZE, SIZE, 3)
 
@@ -111,6 +112,5 @@ for file in materials:
     name = Path(file).stem
     found = render_orders(plane, file, folder / f"{name}.exr")
     true = reference(file, folder / "sky.hdr", folder / f"{name}.csv")
-    numpy.save(folder / f"{name}.npy", numpy.stack([found, true]))
     print(f"{name}: relative RMS {100 * numpy.sqrt(((found - true) ** 2).mean() / (true ** 2).mean()):.1f}, "
           f"mean {found.mean((0, 1)) / true.mean((0, 1))} of the reference's")

@@ -1,5 +1,5 @@
-"""Diffraction gratings and wear on Blender's materials, foil cards, and boxes with a probe each, for Rowland (glTF extensions
-ROWLAND_materials_diffraction, ROWLAND_materials_wear and ROWLAND_light_probe)."""
+"""Diffraction gratings and wear on Blender's materials, foil cards, and boxes with a probe each, for Rowland (glTF
+extensions ROWLAND_materials_diffraction, ROWLAND_materials_wear and ROWLAND_light_probe)."""
 
 import bpy
 

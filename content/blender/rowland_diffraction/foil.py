@@ -24,15 +24,15 @@ class Field(NamedTuple):
 
 
 def read_fields(schema, path=()):
-    """The recipe's fields by the name of their property. A type's own numbers are apart for each type, as their defaults are."""
+    """The recipe's fields by the name of their property. Each type has properties and defaults of its own."""
     found = {}
     for name, member in schema["properties"].items():
         if name == "foil":
-            found["foil_type"] = Field(("foil", "type"), {"enum": [t["properties"]["type"]["const"] for t in member["oneOf"]]})
-            shared = set.intersection(*(set(t["properties"]) for t in member["oneOf"]))
-            for one in member["oneOf"]:
-                kind = one["properties"]["type"]["const"]
-                for key, number in one["properties"].items():
+            types = {one["properties"]["type"]["const"]: one["properties"] for one in member["oneOf"]}
+            found["foil_type"] = Field(("foil", "type"), {"enum": list(types)})
+            shared = set.intersection(*map(set, types.values()))
+            for kind, numbers in types.items():
+                for key, number in numbers.items():
                     if key in shared - {"type"}:
                         found[f"foil_{key}"] = Field(("foil", key), number)
                     elif key != "type":

@@ -85,7 +85,7 @@ class RowlandGrating(bpy.types.PropertyGroup):
 
     viewport_colours: bpy.props.BoolProperty(
         name="Viewport colours", update=lambda self, _context: viewport.update(self.id_data),
-        description="Glossy nodes between surface and output show the orders in Cycles and Eevee; they are not exported")
+        description="Nodes between surface and output show the orders in Cycles and Eevee; they are not exported")
     orders_chosen: bpy.props.BoolProperty(name="Orders chosen", description="The orders stay when the pitch changes")
 
     pitch_nm: number(

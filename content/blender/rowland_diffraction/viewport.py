@@ -83,8 +83,9 @@ def bands(value):
     orders = strongest_orders(value)
     count = min(12, MOST_CLOSURES // len(orders))
     white = white_light()
-    mirror = 4 * (n := grating.value_at(value, ("cover", "ior"), 1)) / (n + 1) ** 2  # the cover's transmittance
-    tint = [m * (t * mirror) ** 2 for m, t in zip(metal_colour(value), grating.value_at(value, ("cover", "tint"), (1, 1, 1)))]
+    cover = 4 * (n := grating.value_at(value, ("cover", "ior"), 1)) / (n + 1) ** 2  # its transmittance
+    dye = grating.value_at(value, ("cover", "tint"), (1, 1, 1))
+    tint = [metal * (passed * cover) ** 2 for metal, passed in zip(metal_colour(value), dye)]
     edges = [round(i * len(white) / count) for i in range(count + 1)]
     parts = [range(first, end) for first, end in zip(edges, edges[1:])]
     # Closures have no negative colours. Clipped ones would add up to more than white.
@@ -147,19 +148,20 @@ class Tree:
 
 
 def order_group():
-    """A closure that mirrors the view into one order: s_p + v_p = k g, with k = m lambda / pitch. Its lobe has the peak of
-    a Gaussian of the standard deviations Width (of the band, across the grooves) and Lobe (along them) in s_p + v_p."""
+    """A closure that mirrors the view into one order: s_p + v_p = k g, with k = m lambda / pitch. Its lobe has the peak
+    of a Gaussian of the standard deviations Width (of the band, across the grooves) and Lobe (along them) in s_p + v_p."""
     if found := bpy.data.node_groups.get(ORDER_GROUP):
         return found
-    tree = Tree(ORDER_GROUP, {"Normal": "Vector", "Grating vector": "Vector", "View normal": "Float", "View grating": "Float",
-                              "Shift": "Float", "Width": "Float", "Lobe": "Float", "Colour": "Color"}, {"BSDF": "Shader"})
+    floats = ("View normal", "View grating", "Shift", "Width", "Lobe")
+    tree = Tree(ORDER_GROUP, {"Normal": "Vector", "Grating vector": "Vector", **dict.fromkeys(floats, "Float"),
+                              "Colour": "Color"}, {"BSDF": "Shader"})
     normal, across, view_normal, view_across, shift, width, lobe, colour = tree.inputs.outputs[:8]
     # s_n^2 = 1 - |k g - v_p|^2
     squared = tree.math("MULTIPLY_ADD", tree.math("SUBTRACT", tree.math("MULTIPLY", view_across, 2.0), shift), shift,
                         tree.math("MULTIPLY", view_normal, view_normal))
     cosine = tree.math("SQRT", tree.math("MAXIMUM", squared, 1e-4))
-    half = tree.vector("NORMALIZE", tree.vector(
-        "ADD", tree.vector("SCALE", normal, tree.math("ADD", cosine, view_normal)), tree.vector("SCALE", across, shift)))
+    upward = tree.vector("SCALE", normal, tree.math("ADD", cosine, view_normal))
+    half = tree.vector("NORMALIZE", tree.vector("ADD", upward, tree.vector("SCALE", across, shift)))
     # GGX has the peak 1 / (2 alpha), a Gaussian 1 / (sqrt(2 pi) sigma), of the slope. A slope e moves s_p by 2 e s_n
     # across the grooves, and by 2 e (v . half) along them. Beckmann's anisotropy has no effect in Blender 3.4.
     view = tree.node("NewGeometry", output="Incoming")
@@ -169,8 +171,8 @@ def order_group():
     roughness = tree.math("POWER", tree.math("MULTIPLY", alpha[0], along), 0.25)
     anisotropy = tree.math("SUBTRACT", 1.0, tree.math("SQRT", tree.math("DIVIDE", alpha[0], along)))
     visible = tree.vector("SCALE", colour, tree.math("GREATER_THAN", squared, 0.0))
-    bsdf = tree.node("BsdfAnisotropic", {"Color": visible, "Roughness": roughness, "Anisotropy": anisotropy, "Normal": half,
-                                         "Tangent": across}, distribution="GGX")
+    bsdf = tree.node("BsdfAnisotropic", {"Color": visible, "Roughness": roughness, "Anisotropy": anisotropy,
+                                         "Normal": half, "Tangent": across}, distribution="GGX")
     tree.connect(tree.outputs, [bsdf])
     return tree.tree
 
