@@ -149,7 +149,7 @@ class Tree:
 
 def order_group():
     """A closure that mirrors the view into one order: s_p + v_p = k g, with k = m lambda / pitch. Its lobe has the peak
-    of a Gaussian of the standard deviations Width (of the band, across the grooves) and Lobe (along them) in s_p + v_p."""
+    of a Gaussian with the standard deviations Width (across the grooves) and Lobe (along them) in s_p + v_p."""
     if found := bpy.data.node_groups.get(ORDER_GROUP):
         return found
     floats = ("View normal", "View grating", "Shift", "Width", "Lobe")
