@@ -24,23 +24,42 @@ nlohmann::ordered_json object_of(const fs::path& file, const std::string& name) 
     return gltf.material_extension(static_cast<std::size_t>(found - names.begin()), kExtension);
 }
 
-TEST(BlenderAddOn, GratingsSurviveExportAndImportAndAreWhatAttachMakes) {
+/// Why Blender cannot be started; empty: it can.
+std::string blender_is_missing() {
     const test::Ended version = test::run({"/usr/bin/env", "blender", "--version"});
-    if (version.code == kNoSuchProgram) {
-        if (test::data_is_required()) FAIL() << "Blender cannot be started: " << version.err;
-        GTEST_SKIP() << "Blender cannot be started: " << version.err;
+    return version.code == kNoSuchProgram ? "Blender cannot be started: " + version.err : "";
+}
+
+/// Runs a script of this folder in Blender with the add-on; the folder holds Blender's settings, and is its first
+/// argument.
+test::Ended run_in_blender(const std::string& script, const fs::path& folder, const test::Command& more = {}) {
+    fs::create_directories(folder / "scripts/addons");
+    fs::create_directory_symlink(test::content_path("blender/rowland_diffraction"),
+                                 folder / "scripts/addons/rowland_diffraction");
+    test::Command command = {"/usr/bin/env",
+                             "blender",
+                             "-b",
+                             "--factory-startup",
+                             "--python-exit-code",
+                             "3",
+                             "--python",
+                             test::source_path("tests/blender/" + script),
+                             "--",
+                             folder};
+    command.insert(command.end(), more.begin(), more.end());
+    return test::run(command, {.environment = {{"BLENDER_USER_SCRIPTS", (folder / "scripts").string()},
+                                               {"HOME", folder.string()},
+                                               {"PYTHONDONTWRITEBYTECODE", "1"}}});
+}
+
+TEST(BlenderAddOn, GratingsSurviveExportAndImportAndAreWhatAttachMakes) {
+    if (const std::string missing = blender_is_missing(); !missing.empty()) {
+        if (test::data_is_required()) FAIL() << missing;
+        GTEST_SKIP() << missing;
     }
     const test::TemporaryFolder folder;
     const auto path = [&](const std::string& name) { return folder.path() / name; };
-    fs::create_directories(path("scripts/addons"));
-    fs::create_directory_symlink(test::content_path("blender/rowland_diffraction"),
-                                 path("scripts/addons/rowland_diffraction"));
-    const test::Ended blender =
-        test::run({"/usr/bin/env", "blender", "-b", "--factory-startup", "--python-exit-code", "3", "--python",
-                   test::source_path("tests/blender/round_trip.py"), "--", folder.path()},
-                  {.environment = {{"BLENDER_USER_SCRIPTS", path("scripts").string()},
-                                   {"HOME", folder.path().string()},
-                                   {"PYTHONDONTWRITEBYTECODE", "1"}}});
+    const test::Ended blender = run_in_blender("round_trip.py", folder.path());
     ASSERT_EQ(blender.code, 0) << blender.out << blender.err;
 
     const test::Ended checked = test::run(
@@ -72,6 +91,24 @@ TEST(BlenderAddOn, GratingsSurviveExportAndImportAndAreWhatAttachMakes) {
     EXPECT_EQ((*box)["extensions"]["ROWLAND_light_probe"],
               (nlohmann::json{{"size_m", {1.0, 1.0, 1.0}}, {"fade_m", 0.25}, {"probe", "rooms/Hall.probe"}}));
     EXPECT_NEAR((*box)["scale"][1].get<double>(), 3.0, 1e-6) << "glTF's Y is Blender's Z";
+}
+
+/// The bound is the figure of content/blender/README.md.
+TEST(BlenderAddOn, ViewportColoursAreNearTheReference) {
+    if (const std::string missing = blender_is_missing(); !missing.empty()) {
+        if (test::data_is_required()) FAIL() << missing;
+        GTEST_SKIP() << missing;
+    }
+    const test::TemporaryFolder folder;
+    const test::Ended blender =
+        run_in_blender("viewport_error.py", folder.path(), {test::content_path("materials/cd.json")});
+    ASSERT_EQ(blender.code, 0) << blender.out << blender.err;
+    const std::string before = "cd: relative RMS ";
+    const std::size_t found = blender.out.find(before);
+    ASSERT_NE(found, std::string::npos) << blender.out;
+    const double percent = std::stod(blender.out.substr(found + before.size()));
+    EXPECT_LE(percent, 20.0);
+    EXPECT_GT(percent, 1.0) << "an approximation by bands, with the noise of 64 samples";
 }
 
 }  // namespace

@@ -213,6 +213,66 @@ def edit_by_panel(fields):
     expect(tuple(round(v, 2) for v in fields.id_data.diffuse_color[:3]) != (0.8, 0.8, 0.8), True, "viewport colour")
 
 
+def check_foil():
+    """Recipes pass the panel unchanged; a card made twice is one card, with a groove image of 16 bits."""
+    from rowland_diffraction import rowland_folder
+
+    recipes = rowland_folder.FOLDER / "content" / "foil"
+    fields = bpy.context.scene.rowland_foil
+    for file in sorted(recipes.glob("*.json")):
+        bpy.ops.rowland.foil_open(filepath=str(file))
+        expect(fields.recipe(recipes), json.loads(file.read_text()), f"the recipe of {file.name}")
+    bpy.ops.rowland.foil_open(filepath=str(recipes / "crystal.json"))
+    fields.texture_px = 512
+    fields.foil_scale = 1.5
+    bpy.ops.rowland.foil_save(filepath=str(folder / "card.json"))
+    saved = json.loads((folder / "card.json").read_text())
+    expect((saved["foil"]["scale"], saved["texture_px"]), (1.5, 512), "numbers of the panel")
+    bpy.ops.rowland.foil_open(filepath=str(folder / "card.json"))
+    bpy.ops.rowland.foil_make()
+    bpy.data.objects["crystal"].location.z = 2
+    material_count, image_count = len(bpy.data.materials), len(bpy.data.images)
+    bpy.ops.rowland.foil_make()
+    expect([o.name for o in bpy.data.objects if "crystal" in o.name], ["crystal"], "cards of one artwork")
+    counts = len(bpy.data.materials), len(bpy.data.images)
+    expect(counts, (material_count, image_count), "datablocks of a card made again")
+    card = bpy.data.objects["crystal"]
+    expect(card.location.z, 2, "the card's position")
+    front = next(m for m in card.data.materials if m.rowland.text)
+    image = front.rowland.groove_image
+    depth = int.from_bytes(image.packed_file.data[24:25], "big")
+    expect((depth, image.is_float, image.colorspace_settings.name), (16, True, "Non-Color"), "the groove image")
+    fields.artwork = str(folder / "missing.png")
+    try:
+        bpy.ops.rowland.foil_make()
+    except RuntimeError as error:
+        expect("missing.png" in str(error), True, "rowland-cook's message")
+    else:
+        expect("a card", "an error", "a card without artwork")
+    return front
+
+
+def check_viewport(material):
+    """Few enough closures, and an export that does not change."""
+    from rowland_diffraction import viewport
+
+    def exported():
+        export("viewport.gltf", export_format="GLTF_SEPARATE")
+        return json.loads((folder / "viewport.gltf").read_text())["materials"]
+
+    before, groups = exported(), len(bpy.data.node_groups)
+    material.rowland.viewport_colours = True
+    node = material.node_tree.nodes[viewport.GROUP]
+    expect(node.node_tree.users, 1, "materials of a group")
+    expect(0 < sum(one.type == "GROUP" for one in node.node_tree.nodes) <= viewport.MOST_CLOSURES, True, "closures")
+    expect(exported(), before, "the export with viewport colours")
+    material.rowland.pitch_nm = 1234
+    expect(len(bpy.data.node_groups), groups + 2, "groups of a grating that was changed")
+    material.rowland.pitch_nm = 1000
+    material.rowland.viewport_colours = False
+    expect((exported(), viewport.GROUP in material.node_tree.nodes), (before, False), "the export after them")
+
+
 bpy.ops.wm.read_factory_settings(use_empty=True)
 bpy.ops.preferences.addon_enable(module="rowland_diffraction")
 
@@ -274,4 +334,5 @@ check_profiles(disc)
 check_orders(disc.rowland)
 export("screen.glb")
 check_box_of_other_lengths()
+check_viewport(check_foil())
 check_show()

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import bpy
 
-from . import grating, properties, rowland_folder
+from . import grating, properties, rowland_folder, viewport
 
 # The fields under each lobe.
 LOBE_FIELDS = {
@@ -53,6 +53,7 @@ class ROWLAND_OT_remove(bpy.types.Operator):
 
     def execute(self, context):
         context.material.rowland.text = ""
+        context.material.rowland.viewport_colours = False
         context.material.rowland.groove_image = None
         return {"FINISHED"}
 
@@ -116,6 +117,8 @@ class ROWLAND_PT_grating(bpy.types.Panel):
             layout.prop(fields, name, text=titles.get(name))
         if not grating.is_lattice(value):
             layout.template_ID(fields, "groove_image", new="image.new", open="image.open", text="Groove image")
+        if viewport.drawable(value):
+            layout.prop(fields, "viewport_colours")
         row = layout.row()
         for program in ("demo", "inspector"):
             row.operator(ROWLAND_OT_show.bl_idname, text=f"Open in the {program}").program = program

@@ -5,7 +5,7 @@ import json
 
 import bpy
 
-from . import grating, rowland_folder
+from . import grating, rowland_folder, viewport
 
 _preset_items = []  # Blender keeps no reference to the strings of items
 
@@ -64,6 +64,7 @@ def update_image(self, _context):
     image = self.groove_image
     if image and not image.is_dirty and image.colorspace_settings.name != "Non-Color":
         image.colorspace_settings.name = "Non-Color"
+    viewport.update(self.id_data)
 
 
 COVER = grating.MEMBERS["cover"]["properties"]
@@ -82,6 +83,9 @@ class RowlandGrating(bpy.types.PropertyGroup):
         name="Groove image", type=bpy.types.Image, update=update_image,
         description="Red: rotation of the grooves / 180 degrees; green: pitch / 2; 0: no grating")
 
+    viewport_colours: bpy.props.BoolProperty(
+        name="Viewport colours", update=lambda self, _context: viewport.update(self.id_data),
+        description="Nodes between surface and output show the orders in Cycles and Eevee; they are not exported")
     orders_chosen: bpy.props.BoolProperty(name="Orders chosen", description="The orders stay when the pitch changes")
 
     pitch_nm: number(
@@ -154,6 +158,7 @@ class RowlandGrating(bpy.types.PropertyGroup):
             self.id_data.diffuse_color = (*grating.viewport_colour(new_object), 1.0)
             self.id_data.metallic = 1.0
             self.id_data.roughness = 0.25
+        viewport.update(self.id_data)
 
 
 RowlandGrating.__annotations__.update({name: profile_member(name, schema) for name, schema in MEMBERS.items()})

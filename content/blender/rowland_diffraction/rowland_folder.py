@@ -9,12 +9,12 @@ FOLDER = Path(__file__).resolve().parents[3]
 MATERIALS = FOLDER / "content" / "materials"
 
 
-def load_schema():
-    """The JSON Schema of the material file, from the program that reads it."""
+def load_schema(kind="material"):
+    """The JSON Schema of a kind of source, from the program that reads it."""
     program = find_program("rowland-cook")
     if program is None:
         raise FileNotFoundError("rowland-cook is missing: build Rowland, and link the add-on's folder from its tree")
-    printed = subprocess.run([program, "schema", "material"], check=True, capture_output=True)
+    printed = subprocess.run([program, "schema", kind], check=True, capture_output=True)
     return json.loads(printed.stdout)
 
 
