@@ -81,15 +81,15 @@ int groove_parts(GrooveView view) { return sparkle.parts; }
 GrooveView groove_part(GrooveView view, int parts, int part) {
     if (parts == 1) return view;
     vec4 moments = facet_moments(view.mesh, part);
-    float share = 1.0;
+    float weight = 1.0;
     if (sparkle.noise < 1.0) {
         float angle = ALL_DIRECTIONS * (float(part) + sparkle.within) / float(SPARKLE_PARTS);
         moments.xy = 0.5 + length(moments.xy - 0.5) * vec2(cos(angle), sin(angle));
         uint counts = part < 8 ? sparkle.counts.x : sparkle.counts.y;
         float count = float((counts >> (4u * uint(part & 7))) & 15u);
-        share = 1.0 + sparkle.noise * (count * float(SPARKLE_PARTS) / max(sparkle.covered, 1.0) - 1.0);
+        weight = 1.0 + sparkle.noise * (count * float(SPARKLE_PARTS) / max(sparkle.covered, 1.0) - 1.0);
     }
     GrooveView one = grooves_of(view.mesh, view.g_change, view.v_g_change, moments);
-    one.coverage *= share;
+    one.coverage *= weight;
     return one;
 }
