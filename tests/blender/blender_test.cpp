@@ -93,7 +93,7 @@ TEST(BlenderAddOn, GratingsSurviveExportAndImportAndAreWhatAttachMakes) {
     EXPECT_NEAR((*box)["scale"][1].get<double>(), 3.0, 1e-6) << "glTF's Y is Blender's Z";
 }
 
-/// The bound is the figure of content/blender/README.md.
+/// The bound is that of content/blender/README.md.
 TEST(BlenderAddOn, ViewportColoursAreNearTheReference) {
     if (const std::string missing = blender_is_missing(); !missing.empty()) {
         if (test::data_is_required()) FAIL() << missing;

@@ -12,7 +12,7 @@ from pathlib import Path
 import bpy
 import numpy
 
-SIZE = 32  # pixels of a picture's side
+SIZE = 16  # pixels of a picture's side
 RGB_OF_XYZ = numpy.array([[3.2404542, -1.5371385, -0.4985314], [-0.969266, 1.8760108, 0.041556],
                           [0.0556434, -0.2040259, 1.0572252]])
 
@@ -24,7 +24,7 @@ def to_rowland(v):
 
 def write_sky(file):
     """A gradient, and lamps 9 degrees wide."""
-    width, height = 256, 128
+    width, height = 128, 64
     azimuth = (numpy.arange(width) + 0.5) / width * 2 * numpy.pi
     elevation = ((numpy.arange(height) + 0.5) / height - 0.5) * numpy.pi
     azimuth, elevation = numpy.meshgrid(azimuth, elevation)
