@@ -217,23 +217,27 @@ void FoilWallPanel::draw(FoilStudio& studio, const View& view, const post::OcioC
     if (!preview_) preview_.emplace(config, still);
     const scene::Camera camera = FoilWall::camera();
     PreviewInputs inputs;
-    inputs.size = wall.size(kWidth * pixels_per_unit);
+    inputs.size = wall.size(kWidth * pixels_per_unit * (fast_ ? 1.0F : 0.5F));
     inputs.eye = camera.eye;
     inputs.target = camera.target;
     inputs.stage = view.stage;
     inputs.object = wall.object();
     inputs.light = view.light();
     inputs.surfaces = wall.surfaces();
-    inputs.tilt = studio.card().tilt;
+    // Software takes seconds for a picture: the wall then stands still, and is drawn where something else changes.
+    if (fast_) inputs.tilt = studio.card().tilt;
     pause_s_ -= seconds;
-    if ((still || pause_s_ <= 0.0F) && studio.film() == nullptr) {
+    const bool is_new = fast_ || frames_ == 0 || !(inputs == drawn_);
+    if ((still || pause_s_ <= 0.0F) && is_new && studio.film() == nullptr) {
+        drawn_ = inputs;
         const auto begin = std::chrono::steady_clock::now();
         preview_->show(inputs);
         preview_->draw(seconds);
         const std::chrono::duration<float> took = std::chrono::steady_clock::now() - begin;
-        // The wall takes a quarter of the time of a card that moves; a slow first picture, for which shaders are
-        // compiled, does not stop it.
-        pause_s_ = std::min(3.0F * took.count(), 0.5F);
+        // The wall takes a quarter of the time of a card that moves.
+        pause_s_ = 3.0F * took.count();
+        constexpr float kFast_s = 0.1F;
+        fast_ = took.count() < kFast_s;
         ++frames_;
     }
     const float width = kWidth;

@@ -42,6 +42,8 @@ class FoilWallPanel {
 
  private:
     std::optional<Preview> preview_;
+    PreviewInputs drawn_;    ///< in the last picture
+    bool fast_ = false;      ///< the last picture took little time
     float pause_s_ = 0.0F;  ///< until the next picture
     int frames_ = 0;        ///< that were drawn
 };
