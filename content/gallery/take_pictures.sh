@@ -1,6 +1,8 @@
 #!/usr/bin/env bash
 # take_pictures.sh
 # Renders the gallery's pictures again, without a display. Needs ImageMagick to write JPEG, and img2webp (Debian: webp).
+# GRACE: the path of Paul Debevec's grace_probe.hdr, for the sheets of painted foil, which also need Chromium, Node.js and
+# what content/web/web.sh builds; without it they stay.
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 root=$(cd "$here/../.." && pwd)
@@ -61,3 +63,4 @@ mkdir "$work/film"
 demo --disc --material "$root/content/materials/cd_pressed.json" --frames 96 --width 480 --height 300 --bloom 0.04 \
     --probe "$root/build/release/cooked/captured_interior.probe" --capture "$work/film/frame.png"
 img2webp -loop 0 -lossy -q 70 -d 33 "$work"/film/*.png -o "$here/turning_disc.webp"
+[[ -z ${GRACE:-} ]] || node "$here/painted_foil.mjs" "$GRACE"
