@@ -27,6 +27,12 @@ keep foil "$work"/sunset/flight_03_*.png
 keep beetle "$work"/sunset/flight_04_*.png
 flight night
 keep discs_at_night "$work"/night/flight_02_*.png
+for card in mountain heavens crystal day_and_night wave scarab; do
+    demo --scene "$root/build/release/cooked/foil/$card.glb" --sun --camera 0,0.145,0.36,0,0.06,0 --bloom 0.03 --frames 1 \
+        --probe "$root/build/release/cooked/captured_night.probe" --width 480 --height 640 --capture "$work/$card.png"
+done
+convert \( "$work"/{mountain,heavens,crystal}.png +append \) \( "$work"/{day_and_night,wave,scarab}.png +append \) \
+    -append -resize 75% -quality 86 "$here/cards.jpg"
 # scene NAME CAPTURE PICTURE [OPTIONS]: a scene of content/scenes.
 scene() {
     demo --scene "$root/build/release/cooked/$1.scene" --probe "$root/build/release/cooked/captured_$2.probe" \
