@@ -250,7 +250,9 @@ const float VARYING_MUCH = 1e-2;
 int groove_parts(GrooveView view) {
     float variation = view.spread.x + view.spread.y;
 #ifdef FINE_GROOVE_PARTS
-    return variation > VARYING ? 64 : 1;
+    vec2 size = vec2(textureSize(groove_map, 0));
+    float texels = abs(determinant(view.mesh.map_uv_change)) * size.x * size.y;
+    return variation > VARYING ? int(clamp(2.0 * texels, 8.0, 64.0)) : 1;  // two for each texel
 #else
     return variation > VARYING_MUCH ? 16 : variation > VARYING ? 4 : 1;
 #endif

@@ -4,32 +4,33 @@
 uniform float facet_texels;  // mean area of a facet
 
 const int SPARKLE_PARTS = 16;
+const float FEW_FACETS = 4.0;
 
-// A pixel with more facets than parts is shaded in equal ranges of directions, each as bright as the facets of the parts
-// that are in it are many.
+// A pixel with few facets is shaded at points. One with more is shaded in equal ranges of directions, each as bright as
+// the facets in it are many, of those whose texels the pixel covers in a level with few: they belong to the surface, so
+// that a pixel that moves by half its width keeps half of them.
 struct Sparkle {
     int parts;
-    float noise;    // the deviation of the mean over the pixel's facets, over that of the mean over the parts'
-    uvec2 counts;   // for each range, four bits: the number of parts whose facet is in it; 16 counts as 15
-    float covered;  // parts that have a facet
-    float within;   // where in its range a direction is shaded: random, and the same in all ranges
+    float noise;   // the deviation of the mean over the pixel's facets, over that of the mean over those that were read
+    uvec4 counts;  // eight bits for each range: the weight of the facets in it
+    float total;
+    float within;  // where in its range a direction is shaded: the same in all ranges
+    vec4 moments;  // of one facet, with the pixel's coverage
 };
 Sparkle sparkle;
 
-vec4 facet_moments(MeshView mesh, int part) {
-    vec2 width = (abs(mesh.map_uv_change[0]) + abs(mesh.map_uv_change[1])) * vec2(textureSize(groove_map, 0));
-    // Of few facets the golden-ratio lattice tells the areas in the pixel, of many the square one meets each once.
-    vec2 at = sparkle.noise < 1.0 ? (vec2(part & 3, part >> 2) + 0.5) / 4.0
-                                  : vec2((float(part) + 0.5) / float(SPARKLE_PARTS), fract(0.61803399 * float(part)));
-    // Texels half as wide as a part or less, so that parts do not share them. Parts take the next level one by one as
-    // the pixel grows, so that facets are not replaced all at once.
-    float level = log2(max(max(width.x, width.y) / 8.0, 0.5)) + (float(part) + 0.5) / float(SPARKLE_PARTS);
-    vec2 uv = mesh.map_uv + mesh.map_uv_change * (at - 0.5);
+vec4 facet_at(vec2 uv, int level) {
 #ifdef GL_ES
-    return textureLod(groove_map, uv, floor(max(level, 0.0))) + textureLod(groove_map_rest, uv, floor(max(level, 0.0)));
+    return textureLod(groove_map, uv, float(level)) + textureLod(groove_map_rest, uv, float(level));
 #else
-    return textureLod(groove_map, uv, floor(max(level, 0.0)));
+    return textureLod(groove_map, uv, float(level));
 #endif
+}
+
+// The facet at a point of a golden-ratio lattice, which tells areas in the pixel.
+vec4 facet_moments(MeshView mesh, int part) {
+    vec2 at = vec2((float(part) + 0.5) / float(SPARKLE_PARTS), fract(0.61803399 * float(part)));
+    return facet_at(mesh.map_uv + mesh.map_uv_change * (at - 0.5), 0);
 }
 
 // Of the moments' angle, over that of the direction.
@@ -39,40 +40,84 @@ const float ALL_DIRECTIONS = 6.28318531;
 const float ALL_DIRECTIONS = 3.14159265;
 #endif
 
-// Returns the moments of one of the pixel's facets, with the pixel's coverage. Call it first.
-vec4 find_sparkle(MeshView mesh) {
-    vec2 texels = vec2(textureSize(groove_map, 0));
-    float facets = abs(determinant(mesh.map_uv_change)) * texels.x * texels.y / facet_texels;
-    // The pixel's edges cut facets: a mean over a square of the side a > 1 has the variance (1/a - 1/(3 a^2))^2. The
-    // square lattice adds a tenth to it between 4 and 16 facets.
-    float side = sqrt(max(facets, 1.0));
-    float noise = min(sqrt(float(SPARKLE_PARTS)) * (1.0 / side - 1.0 / (3.0 * side * side)), 0.95);
-    sparkle = Sparkle(facets < 0.02 ? 1 : SPARKLE_PARTS, facets < 4.0 ? 1.0 : noise, uvec2(0u), 0.0, 0.5);
-    vec4 seen = vec4(0.0);
-    float coverage = 0.0;
-    for (int part = 0; part < sparkle.parts; ++part) {
-        vec4 moments = facet_moments(mesh, part);
+// The sums over facets that a pixel's moments are made of.
+struct FacetSums {
+    vec4 seen;       // of one of them
+    float coverage;  // times its weight
+    float weight;    // of all texels, with a facet or not
+    float squares;   // of the facets' weights
+};
+
+// Adds the facets of a level. `unit`: the weight of a texel that the pixel covers whole; `below`: that of one of the level
+// below, whose facets these are as well.
+void count_facets(MeshView mesh, int level, float unit, float below, inout FacetSums sums) {
+    const int MOST = 8;  // along a side; a pixel covers six texels, of which it cuts two
+    vec2 texels = vec2(textureSize(groove_map, level));
+    mat2 to_texels = mat2(mesh.map_uv_change[0] * texels, mesh.map_uv_change[1] * texels);
+    mat2 to_pixel = inverse(to_texels);
+    vec2 half_pixel = 0.5 * (abs(to_texels[0]) + abs(to_texels[1]));
+    vec2 half_texel = 0.5 * (abs(to_pixel[0]) + abs(to_pixel[1]));
+    vec2 middle = mesh.map_uv * texels;
+    vec2 first = floor(middle - half_pixel);
+    ivec2 count = min(ivec2(floor(middle + half_pixel) - first) + 1, ivec2(MOST));
+    for (int i = 0; i < count.x * count.y; ++i) {
+        vec2 texel = first + vec2(i % count.x, i / count.x) + 0.5;
+        vec2 at = to_pixel * (texel - middle);
+        vec2 covered = max(min(at + half_texel, 0.5) - max(at - half_texel, -0.5), 0.0) / (2.0 * half_texel);
+        float weight = floor(unit * covered.x * covered.y + 0.5);
+        if (weight == 0.0) continue;
+        sums.weight += weight;
+        vec4 moments = facet_at(texel / texels, level);
         if (moments.z == 0.0) continue;
-        seen = moments;
-        coverage += moments.w;
-        sparkle.covered += 1.0;
+        sums.seen = moments;
+        sums.coverage += weight * moments.w;
+        sums.squares += weight * weight * (1.0 + 2.0 * below / unit);
+        sparkle.total += weight;
         vec2 mean = moments.xy - 0.5;
         float direction = float(SPARKLE_PARTS) * fract(atan(mean.y, mean.x) / ALL_DIRECTIONS);
         sparkle.within = fract(direction);
-        uint range = min(uint(direction), uint(SPARKLE_PARTS) - 1u);
-        uint one = 1u << (4u * (range & 7u));
-        if (range < 8u)
-            sparkle.counts.x += sparkle.counts.x / one % 16u < 15u ? one : 0u;
-        else
-            sparkle.counts.y += sparkle.counts.y / one % 16u < 15u ? one : 0u;
+        int range = min(int(direction), SPARKLE_PARTS - 1);
+        sparkle.counts[range >> 2] += uint(weight) << uint(8 * (range & 3));
+    }
+}
+
+// Returns the moments of one of the pixel's facets, with the pixel's coverage. Call it first.
+vec4 find_sparkle(MeshView mesh) {
+    ivec2 size = textureSize(groove_map, 0);
+    vec2 width = (abs(mesh.map_uv_change[0]) + abs(mesh.map_uv_change[1])) * vec2(size);
+    float facets = abs(determinant(mesh.map_uv_change)) * float(size.x) * float(size.y) / facet_texels;
+    sparkle = Sparkle(facets < 0.02 ? 1 : SPARKLE_PARTS, 1.0, uvec4(0u), 0.0, 0.5, vec4(0.0));
+    FacetSums sums = FacetSums(vec4(0.0), 0.0, 0.0, 0.0);
+    if (facets < FEW_FACETS) {
+        for (int part = 0; part < sparkle.parts; ++part) {
+            vec4 moments = facet_moments(mesh, part);
+            sums.weight += 1.0;
+            if (moments.z == 0.0) continue;
+            sums.seen = moments;
+            sums.coverage += moments.w;
+        }
+    } else {
+        // At most six texels along the longer side. Their weights go over to the next level's before these are three.
+        const float UNIT = 6.0;  // the ranges' eight bits hold the weights of 36 texels
+        float across = max(width.x, width.y);
+        int last = int(log2(float(max(size.x, size.y))) + 0.01);
+        int level = clamp(int(ceil(log2(across / 6.0))), 0, last);
+        float next = level == last ? 0.0 : smoothstep(3.0, 6.0, across / exp2(float(level)));
+        count_facets(mesh, level, UNIT * (1.0 - next), 0.0, sums);
+        if (next > 0.0) count_facets(mesh, level + 1, 4.0 * UNIT * next, UNIT * (1.0 - next), sums);
+        // The pixel's edges cut facets: a mean over a square of the side a > 1 has the variance (1/a - 1/(3 a^2))^2.
+        float side = sqrt(facets);
+        float read = sparkle.total * sparkle.total / max(sums.squares, 1.0);
+        sparkle.noise = min(sqrt(read) * (1.0 / side - 1.0 / (3.0 * side * side)), 1.0);
     }
 #ifdef GROOVE_GAPS
-    if (seen.z > 0.0) {
-        coverage /= float(sparkle.parts);
-        seen = vec4(0.5 + (seen.xy - 0.5) * coverage / seen.w, seen.z * coverage / seen.w, coverage);
+    if (sums.seen.z > 0.0) {
+        float coverage = sums.coverage / sums.weight;
+        sums.seen = vec4(0.5 + (sums.seen.xy - 0.5) * coverage / sums.seen.w, sums.seen.z * coverage / sums.seen.w, coverage);
     }
 #endif
-    return seen;
+    sparkle.moments = sums.seen;
+    return sums.seen;
 }
 
 int groove_parts(GrooveView view) { return sparkle.parts; }
@@ -80,16 +125,13 @@ int groove_parts(GrooveView view) { return sparkle.parts; }
 // A facet, or the facets whose directions are in a range.
 GrooveView groove_part(GrooveView view, int parts, int part) {
     if (parts == 1) return view;
-    vec4 moments = facet_moments(view.mesh, part);
-    float weight = 1.0;
-    if (sparkle.noise < 1.0) {
-        float angle = ALL_DIRECTIONS * (float(part) + sparkle.within) / float(SPARKLE_PARTS);
-        moments.xy = 0.5 + length(moments.xy - 0.5) * vec2(cos(angle), sin(angle));
-        uint counts = part < 8 ? sparkle.counts.x : sparkle.counts.y;
-        float count = float((counts >> (4u * uint(part & 7))) & 15u);
-        weight = 1.0 + sparkle.noise * (count * float(SPARKLE_PARTS) / max(sparkle.covered, 1.0) - 1.0);
-    }
+    if (sparkle.total == 0.0)
+        return grooves_of(view.mesh, view.g_change, view.v_g_change, facet_moments(view.mesh, part));
+    float angle = ALL_DIRECTIONS * (float(part) + sparkle.within) / float(SPARKLE_PARTS);
+    float count = float((sparkle.counts[part >> 2] >> uint(8 * (part & 3))) & 255u);
+    vec4 moments = sparkle.moments;
+    moments.xy = 0.5 + length(moments.xy - 0.5) * vec2(cos(angle), sin(angle));
     GrooveView one = grooves_of(view.mesh, view.g_change, view.v_g_change, moments);
-    one.coverage *= weight;
+    one.coverage *= 1.0 + sparkle.noise * (count * float(SPARKLE_PARTS) / sparkle.total - 1.0);
     return one;
 }
