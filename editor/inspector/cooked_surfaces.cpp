@@ -62,7 +62,7 @@ CookedSurface SurfaceCook::cook_grating(const diffraction::GltfGrating& grating,
     }
     if (scene_)
         drawable = diffraction::drawable_material(grating, grooves ? &grooves->pitches() : nullptr, source.name, {});
-    return {.material = baked(gratings_, bake_key(source.json, drawable, grooves.get()),
+    return {.material = baked(tables_->gratings, bake_key(source.json, drawable, grooves.get()),
                               [&] { return diffraction::bake_material(with_efficiencies(drawable, source.name)); }),
             .grooves = grooves,
             .groove_rotation = grating.groove_rotation,
@@ -71,7 +71,7 @@ CookedSurface SurfaceCook::cook_grating(const diffraction::GltfGrating& grating,
 
 DrawnFilm SurfaceCook::cook_film(const MaterialSource& source, std::size_t material) {
     const auto bake = [&](const thin_film::FilmMaterial& film, const std::string& key) {
-        return baked(films_, key, [&] { return thin_film::CookedFilm{film, thin_film::bake_film(film)}; });
+        return baked(tables_->films, key, [&] { return thin_film::CookedFilm{film, thin_film::bake_film(film)}; });
     };
     if (const auto* film = std::get_if<thin_film::FilmMaterial>(&source.parsed))
         return {.cooked = bake(*film, source.json.dump())};
@@ -100,11 +100,11 @@ std::shared_ptr<const scene::ImportedScene> SurfaceCook::textures_of(const Mater
 template <typename Cooked, typename Bake>
 std::shared_ptr<const Cooked> SurfaceCook::baked(Baked<Cooked>& all, const std::string& key, const Bake& bake) {
     {
-        const std::scoped_lock guard(lock_);
+        const std::scoped_lock guard(tables_->lock);
         if (auto present = all[key].lock()) return present;
     }
     auto made = std::make_shared<const Cooked>(bake());
-    const std::scoped_lock guard(lock_);
+    const std::scoped_lock guard(tables_->lock);
     all[key] = made;
     return made;
 }

@@ -42,7 +42,10 @@ using CookedSurfaces = std::vector<std::shared_ptr<const CookedSurface>>;
 class SurfaceCook {
  public:
     /// `scene` holds the textures; null for a material file.
-    explicit SurfaceCook(std::shared_ptr<const SceneObject> scene) : scene_(std::move(scene)) {}
+    explicit SurfaceCook(std::shared_ptr<const SceneObject> scene) : SurfaceCook(std::move(scene), nullptr) {}
+    /// Shares the tables that `other` has baked; null: none.
+    SurfaceCook(std::shared_ptr<const SceneObject> scene, const SurfaceCook* other)
+        : scene_(std::move(scene)), tables_(other != nullptr ? other->tables_ : std::make_shared<Tables>()) {}
 
     /// `material`: its index in the scene. Takes seconds. Throws Error (input) if the surface cannot be drawn.
     std::shared_ptr<const CookedSurface> cook(const MaterialSource& source, std::size_t material = 0);
@@ -57,10 +60,14 @@ class SurfaceCook {
     template <typename Cooked, typename Bake>
     std::shared_ptr<const Cooked> baked(Baked<Cooked>& all, const std::string& key, const Bake& bake);
 
+    struct Tables {
+        std::mutex lock;
+        Baked<diffraction::CookedMaterial> gratings;  ///< by their inputs
+        Baked<thin_film::CookedFilm> films;           ///< likewise
+    };
+
     std::shared_ptr<const SceneObject> scene_;
-    std::mutex lock_;
-    Baked<diffraction::CookedMaterial> gratings_;  ///< by their inputs
-    Baked<thin_film::CookedFilm> films_;           ///< likewise
+    std::shared_ptr<Tables> tables_;
 };
 
 /// The cooked gratings and films of all materials of a scene. That of the chosen material is passed to update(); the

@@ -73,7 +73,8 @@ const char* file_kind_name(FileKind kind) {
                                    "models (.gltf, .glb)",
                                    "lights (.hdr, .exr, .pic, .json)",
                                    "tables of efficiencies (.csv)",
-                                   "pictures (.png, .jpg, .jpeg)"};
+                                   "pictures (.png, .jpg, .jpeg)",
+                                   "films (.webp)"};
     return kNames.at(static_cast<std::size_t>(kind));
 }
 
@@ -118,21 +119,54 @@ void Dialogs::ask(Kind kind, std::string path) {
     path_ = std::move(path);
     folder_ = std::filesystem::current_path();
     replaced_.clear();
+    use_ = nullptr;
     asked_ = focus_path_ = true;
 }
 
-void Dialogs::ask_open() {
+std::string Dialogs::folder_of_recent() const {
     const auto& recent = layout_.recent;
     const std::filesystem::path folder =
         recent.empty() ? std::filesystem::current_path() : std::filesystem::path(recent.front()).parent_path();
+    return with_slash(is_folder(folder) ? folder : std::filesystem::current_path());
+}
+
+void Dialogs::ask_open() {
     shown_ = FileKind::All;
-    ask(Kind::Open, with_slash(is_folder(folder) ? folder : std::filesystem::current_path()));
+    words_ = "Type a path (Tab completes it) or choose a file. Files may be dropped onto the window.";
+    ask(Kind::Open, folder_of_recent());
+}
+
+void Dialogs::ask_picture(std::string words, Use use) {
+    shown_ = FileKind::Pictures;
+    words_ = std::move(words);
+    ask(Kind::Open, folder_of_recent());
+    use_ = std::move(use);
+}
+
+void Dialogs::ask_file(FileKind kind, std::string words, const std::filesystem::path& suggested, Use use) {
+    after_ = nullptr;
+    shown_ = kind;
+    words_ = std::move(words);
+    ask(Kind::SaveAs, suggested.string());
+    use_ = std::move(use);
 }
 
 void Dialogs::ask_save_as(std::function<void()> after) {
+    if (FoilStudio* const foil = session_.foil.get()) {
+        ask_file(FileKind::Materials, "A foil recipe (.json).", foil->recipe().suggested(".json"),
+                 [this](const std::filesystem::path& path) {
+                     session_.foil->save(path);
+                     if (session_.foil->recipe().dirty()) return;
+                     remember(layout_, path);
+                     if (const auto next = std::exchange(after_, nullptr)) next();
+                 });
+        after_ = std::move(after);
+        return;
+    }
     const Document& document = session_.opened.document();
     after_ = std::move(after);
     shown_ = document.is_scene() ? FileKind::Models : FileKind::Materials;
+    words_ = document.is_scene() ? "A glTF file (.gltf, .glb)." : "A material file (.json).";
     ask(Kind::SaveAs, document.path().empty()
                           ? (std::filesystem::current_path() / document.name()).replace_extension(".json").string()
                           : std::filesystem::absolute(document.path()).string());
@@ -148,10 +182,16 @@ void Dialogs::open(const std::filesystem::path& path) {
         session_.open(path);
         if (last_refusal() == before) remember(layout_, path);
     };
-    session_.opened.is_replaced_by(path) ? ask_unsaved(now) : now();
+    session_.is_replaced_by(path) ? ask_unsaved(now) : now();
 }
 
 void Dialogs::save(std::function<void()> after) {
+    if (FoilStudio* const foil = session_.foil.get()) {
+        if (foil->recipe().path().empty()) return ask_save_as(std::move(after));
+        foil->save(foil->recipe().path());
+        if (after && !foil->recipe().dirty()) after();
+        return;
+    }
     if (session_.opened.document().path().empty()) return ask_save_as(std::move(after));
     session_.opened.save();
     if (after && !session_.opened.document().dirty()) after();
@@ -159,7 +199,8 @@ void Dialogs::save(std::function<void()> after) {
 
 void Dialogs::ask_unsaved(std::function<void()> action) {
     const Document& document = session_.opened.document();
-    if (!document.dirty() || !document.can_undo()) return action();
+    const bool edited = session_.foil ? session_.foil->recipe().dirty() : document.dirty() && document.can_undo();
+    if (!edited) return action();
     after_ = std::move(action);
     ask(Kind::Unsaved, {});
 }
@@ -193,10 +234,7 @@ void Dialogs::draw(ControlMap& controls) {
 void Dialogs::draw_file(ControlMap& controls) {
     const bool opens = kind_ == Kind::Open;
     const FileList list = list_files(path_, folder_, shown_);
-    ImGui::TextUnformatted(
-        opens ? "Type a path (Tab completes it) or choose a file. Files may be dropped onto the window."
-        : session_.opened.document().is_scene() ? "A glTF file (.gltf, .glb)."
-                                                : "A material file (.json).");
+    ImGui::TextUnformatted(words_.c_str());
     const bool entered = draw_path(list, controls);
     draw_list(list, controls);
     if (opens && !layout_.recent.empty()) {
@@ -252,6 +290,7 @@ void Dialogs::draw_list(const FileList& list, ControlMap& controls) {
 }
 
 void Dialogs::draw_kinds(ControlMap& controls) {
+    if (use_) return;
     ImGui::SetNextItemWidth(20.0F * ImGui::GetFontSize());
     if (ImGui::BeginCombo("##kind", file_kind_name(shown_))) {
         for (const FileKind kind : kFileKinds) {
@@ -284,13 +323,16 @@ void Dialogs::choose(const std::filesystem::path& path) {
         return;
     }
     std::error_code ignored;
-    const bool own = std::filesystem::equivalent(path, session_.opened.document().path(), ignored);
+    const std::filesystem::path& saved =
+        session_.foil ? session_.foil->recipe().path() : session_.opened.document().path();
+    const bool own = std::filesystem::equivalent(path, saved, ignored);
     if (kind_ == Kind::SaveAs && !own && replaced_ != path && std::filesystem::exists(path, ignored)) {
         replaced_ = path;
         focus_path_ = true;
         return;
     }
     ImGui::CloseCurrentPopup();
+    if (const Use use = std::exchange(use_, nullptr)) return use(path);
     if (kind_ == Kind::Open) return open(path);
     session_.opened.save_as(path);
     if (session_.opened.document().dirty()) return;
@@ -299,7 +341,7 @@ void Dialogs::choose(const std::filesystem::path& path) {
 }
 
 void Dialogs::draw_unsaved(ControlMap& controls) {
-    ImGui::Text("%s has unsaved edits.", session_.opened.document().name().c_str());
+    ImGui::Text("%s has unsaved edits.", session_.document_name().c_str());
     const bool saves = named_button("Save", controls);
     ImGui::SameLine();
     const bool discards = named_button("Discard", controls);

@@ -13,7 +13,7 @@
 namespace rowland::inspector {
 
 /// Kinds of files by their extensions. Both materials and recipes of lights are .json files.
-enum class FileKind { All, Materials, Models, Lights, Tables, Pictures };
+enum class FileKind { All, Materials, Models, Lights, Tables, Pictures, Films };
 inline constexpr std::array kFileKinds = {FileKind::All,    FileKind::Materials, FileKind::Models,
                                           FileKind::Lights, FileKind::Tables,    FileKind::Pictures};
 
@@ -47,8 +47,14 @@ class Dialogs {
     /// `layout` holds the files that were opened last.
     Dialogs(Session& session, Layout& layout) : session_(session), layout_(layout) {}
 
+    using Use = std::function<void(const std::filesystem::path&)>;
+
     void ask_open();
     void ask_save_as() { ask_save_as(nullptr); }
+    /// Asks for a picture, which `use` gets. `words`: what for.
+    void ask_picture(std::string words, Use use);
+    /// Asks for a file to write, which `use` gets; one that exists must be confirmed.
+    void ask_file(FileKind kind, std::string words, const std::filesystem::path& suggested, Use use);
     /// Opens a file; asks first if unsaved edits would be lost.
     void open(const std::filesystem::path& path);
     /// Saves the document; asks for a file if it has none.
@@ -64,6 +70,7 @@ class Dialogs {
     enum class Kind { Open, SaveAs, Unsaved, Recovery };
 
     void ask(Kind kind, std::string path);
+    std::string folder_of_recent() const;
     void ask_save_as(std::function<void()> after);
     void save(std::function<void()> after);
     void draw_file(ControlMap& controls);
@@ -85,6 +92,8 @@ class Dialogs {
     std::filesystem::path folder_;    ///< of relative paths
     std::filesystem::path replaced_;  ///< the file whose replacement the user has to confirm
     FileKind shown_ = FileKind::All;
+    std::string words_;            ///< above the path
+    Use use_;                      ///< of the chosen file; null: it is the document's
     std::function<void()> after_;  ///< once the edits are saved or discarded
 };
 

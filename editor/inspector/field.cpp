@@ -293,6 +293,14 @@ Json reverted(const Json& material, const Field& field) {
     return with_alternative(with_value(material, field, field.required ? field.default_value : Json()), field);
 }
 
+double number_of(const Json& value) {
+    return value.is_number() ? value.get<double>() : 0.0;
+}
+
+double rounded(double value) {
+    return std::round(value * 1e3) / 1e3;
+}
+
 double shown_number(const Field& field, double stored) {
     return field.unit == "rad" ? stored * 180.0 / std::numbers::pi : stored;
 }

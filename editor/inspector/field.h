@@ -111,6 +111,11 @@ Json with_choice(const Json& material, const Field& field, const std::string& na
 /// Sets the field to its default.
 Json reverted(const Json& material, const Field& field);
 
+/// 0 for a value that is no number, so that a control can replace it.
+double number_of(const Json& value);
+/// To 0.001, so that files stay readable.
+double rounded(double value);
+
 /// The number that a control shows for a number of the file, and the inverse: radians as degrees, others unchanged.
 double shown_number(const Field& field, double stored);
 double stored_number(const Field& field, double shown);

@@ -30,7 +30,7 @@ namespace {
 
 /// The values of the command line.
 struct Options : app::CommonOptions {
-    std::optional<std::filesystem::path> file;  ///< material or glTF
+    std::optional<std::filesystem::path> file;  ///< material, foil recipe or glTF
     std::optional<std::string> preset;
     std::optional<PreviewShape> shape;
     bool preview_only = false;
@@ -46,7 +46,7 @@ constexpr const char* kFooter =
     "example:\n"
     "  rowland-inspector my_foil.json --probe stage.hdr --shape sheet\n"
     "  rowland-inspector --preset dvd --capture inspector.png --size 1600x1000\n\n"
-    "Drop a material, a glTF file, a probe, a picture or a table of efficiencies onto the window to open it.\n"
+    "Drop a material, a foil recipe, a glTF file, a probe, a picture or a table of efficiencies onto the window.\n"
     "Keys: F1 lists all. Tab and arrows move through all controls, Space and Enter use them; Ctrl+Z undoes and\n"
     "Ctrl+Shift+Z redoes, Ctrl+S saves, Ctrl+O opens, Ctrl+= and Ctrl+- change the size of text, Ctrl+1 to Ctrl+5\n"
     "choose the shape, F6 compares with the saved version, F12 writes a screenshot. Drag the preview to orbit, turn\n"
@@ -80,7 +80,8 @@ std::optional<Options> parse_options(int argc, const char* const* argv) {
     Options options;
     options.content_folder = std::filesystem::path(ROWLAND_SOURCE_DIR) / "content";
     std::string shape;
-    app.add_option("FILE", options.file, "A material (.json), or a glTF file whose gratings and films to edit");
+    app.add_option("FILE", options.file,
+                   "A material or a foil recipe (.json), or a glTF file whose gratings and films to edit");
     app.add_option("--preset", options.preset, "Start from a shipped material: cd, cd_r, dvd, blu_ray, soap_film, …");
     app::add_common_options(app, options, "Write the window as PNG once all is computed, without opening a window");
     app.add_option("--shape", shape, "Shape of the preview: disc, sphere, card, sheet")

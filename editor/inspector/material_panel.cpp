@@ -16,8 +16,6 @@ namespace rowland::inspector {
 
 namespace {
 
-const ImVec4 kRefused(0.95F, 0.60F, 0.15F, 1.0F);
-
 /// The number near x that is 1, 2 or 5 times a power of ten.
 double round_step(double x) {
     const double unit = std::pow(10.0, std::floor(std::log10(x)));
@@ -32,16 +30,6 @@ double drag_step(const Field& field, double value) {
     return round_step(std::max(std::abs(value), field.minimum) / kPixels);
 }
 
-/// 0 for a value that is no number, so that the control can replace it.
-double number_of(const Json& value) {
-    return value.is_number() ? value.get<double>() : 0.0;
-}
-
-/// To 0.001, so that files stay readable.
-double rounded(float value) {
-    return std::round(static_cast<double>(value) * 1e3) / 1e3;
-}
-
 void help_on_hover(const Field& field) {
     if (!ImGui::IsItemHovered()) return;
     ImGui::BeginTooltip();
@@ -50,12 +38,6 @@ void help_on_hover(const Field& field) {
     ImGui::TextDisabled("Source: %s", field.source.c_str());
     ImGui::PopTextWrapPos();
     ImGui::EndTooltip();
-}
-
-void draw_refusal(const Refusal& refusal) {
-    ImGui::PushTextWrapPos();
-    ImGui::TextColored(kRefused, "%s", refusal.message.c_str());
-    ImGui::PopTextWrapPos();
 }
 
 /// Puts the next control on the line of the label that was just drawn.
@@ -99,7 +81,7 @@ void draw_pair(Document& document, const Field& field) {
     const float largest = std::max(std::abs(pair[0]), std::abs(pair[1]));
     const auto step = static_cast<float>(drag_step(field, static_cast<double>(largest)));
     if (ImGui::DragFloat2("##value", pair.data(), step, 0.0F, 0.0F, "%.7g"))
-        document.set_value(field, {rounded(pair[0]), rounded(pair[1])});
+        document.set_value(field, {rounded(static_cast<double>(pair[0])), rounded(static_cast<double>(pair[1]))});
 }
 
 void draw_colour(Document& document, const Field& field) {
@@ -113,7 +95,7 @@ void draw_colour(Document& document, const Field& field) {
                            ImGuiColorEditFlags_Float | (narrow ? ImGuiColorEditFlags_NoInputs : 0)))
         return;
     Json edited = Json::array();
-    for (const float part : rgb) edited.push_back(rounded(part));
+    for (const float part : rgb) edited.push_back(rounded(static_cast<double>(part)));
     document.set_value(field, edited);
 }
 
@@ -254,7 +236,7 @@ void draw_actions(OpenDocument& opened, ControlMap& controls) {
 void MaterialPanel::draw(Document& document, ControlMap& controls) {
     std::string section;
     bool open = false;
-    if (document.refusal() && document.refusal()->field == nullptr) draw_refusal(*document.refusal());
+    if (document.refusal() && document.refusal()->field == nullptr) draw_refusal(document.refusal()->message);
     for (const auto all : fields_of(document.json()))
         for (const Field& field : all) {
             const bool of_scene = all.data() == groove_fields().data();
@@ -294,7 +276,7 @@ void MaterialPanel::draw_field(Document& document, const Field& field, ControlMa
                               field.default_value.is_null() ? "none" : field.default_value.dump().c_str());
     }
     // A reset may have ended the refusal.
-    if (refused && document.refusal()) draw_refusal(*document.refusal());
+    if (refused && document.refusal()) draw_refusal(document.refusal()->message);
     ImGui::PopID();
     if (field.pointer == "/grating/pitch_nm") draw_lines_per_mm(document, controls);
 }

@@ -12,6 +12,7 @@
 #include "engine/core/json_reader.h"
 #include "modules/diffraction/asset/gltf_extension.h"
 #include "modules/diffraction/asset/material.h"
+#include "modules/diffraction/foil/recipe.h"
 #include "modules/thin_film/asset/gltf_iridescence.h"
 
 namespace rowland::inspector {
@@ -53,11 +54,6 @@ bool is_scene_file(const std::filesystem::path& path) {
     return has_extension(path, {".gltf", ".glb"});
 }
 
-/// A PNG or JPEG, for textures of grooves or of thickness.
-bool is_picture_file(const std::filesystem::path& path) {
-    return has_extension(path, {".png", ".jpg", ".jpeg"});
-}
-
 /// The object of a valid material file in the folder `from`, as a scene in `folder` holds it. `file` is for messages.
 Json as_extension(const Json& material, const std::filesystem::path& from, const std::filesystem::path& folder,
                   const std::string& file) {
@@ -80,6 +76,15 @@ bool is_light_file(const std::filesystem::path& path) {
     if (is_scene_file(path) || is_picture_file(path) || has_extension(path, {".csv"})) return false;
     const nlohmann::json json = parse_json(read_text_file(path, kLargestSource), path.string());
     return json.is_object() && json.contains("probe");
+}
+
+bool is_picture_file(const std::filesystem::path& path) {
+    return has_extension(path, {".png", ".jpg", ".jpeg"});
+}
+
+bool is_foil_recipe_file(const std::filesystem::path& path) {
+    return has_extension(path, {".json"}) &&
+           diffraction::foil::is_foil_recipe(parse_json(read_text_file(path, kLargestSource), path.string()));
 }
 
 OpenDocument::OpenDocument(std::filesystem::path presets, Messages& messages)

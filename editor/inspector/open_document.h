@@ -142,5 +142,9 @@ class OpenDocument {
 /// Whether the file is a light: a probe image or recipe. Reads .json files to distinguish recipes from materials.
 /// Throws Error (input).
 bool is_light_file(const std::filesystem::path& path);
+/// Whether the file is a PNG or JPEG, by its name.
+bool is_picture_file(const std::filesystem::path& path);
+/// Whether the file is a .json file with a foil recipe. Throws Error (input).
+bool is_foil_recipe_file(const std::filesystem::path& path);
 
 }  // namespace rowland::inspector

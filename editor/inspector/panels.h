@@ -4,7 +4,9 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
+#include <utility>
 
 #include "editor/inspector/rigorous_curves.h"
 #include "editor/inspector/session.h"
@@ -121,6 +123,10 @@ class PreviewPanel {
     /// the last frame.
     void draw(OpenDocument& opened, LightChoice& light, View& view, const platform::InputState& input,
               float pixels_per_unit, float seconds, ControlMap& controls);
+    /// The same for a foil card, which a drag stops and turns.
+    void draw(FoilStudio& studio, LightChoice& light, View& view, const platform::InputState& input,
+              float pixels_per_unit, float seconds, ControlMap& controls);
+    scene::Camera camera() const { return camera_.camera(); }
 
     /// Moves the camera so that the meshes with the chosen material fill the picture.
     void frame(View& view);
@@ -130,21 +136,27 @@ class PreviewPanel {
  private:
     void draw_tools(bool has_scene, bool has_grating, bool has_saved, LightChoice& light, View& view,
                     ControlMap& controls);
+    void draw_light_tools(LightChoice& light, View& view, ControlMap& controls);
+    /// The picture's rectangle, an invisible button; nullopt: it is too small.
+    std::optional<std::pair<ImVec2, ImVec2>> begin_picture(ControlMap& controls);
+    void follow(const void* shown, const scene::Camera& camera);
     void draw_picture(const View& view, const ImVec2& corner, const ImVec2& size) const;
     void draw_saved(const View& view, const ImVec2& corner, const ImVec2& end) const;
     void draw_lamp(const Stage& stage, const ImVec2& corner, const ImVec2& size, ControlMap& controls) const;
     bool near_lamp(const Stage& stage, const glm::vec2& at, const ImVec2& size) const;
-    void use_mouse(Document& document, View& view, const platform::InputState& input, const ImVec2& corner,
+    /// `document`: whose grooves can be rotated; null: none.
+    void use_mouse(Document* document, View& view, const platform::InputState& input, const ImVec2& corner,
                    const ImVec2& size);
 
     enum class Drag { None, Line, Lamp, Grooves, Orbit };
 
     scene::OrbitCamera camera_;
-    const SceneObject* scene_ = nullptr;  ///< in the last frame
-    bool has_saved_ = false;              ///< in this frame: there is a saved version
-    float line_ = 0.5F;                   ///< position of the dividing line, as a fraction of the width
+    const void* shown_ = nullptr;  ///< the scene or the foil card in the last frame
+    bool has_saved_ = false;       ///< in this frame: there is a saved version
+    float line_ = 0.5F;            ///< position of the dividing line, as a fraction of the width
     Drag drag_ = Drag::None;
-    bool lamp_behind_ = false;  ///< at the start of the drag
+    bool lamp_behind_ = false;   ///< at the start of the drag
+    float moving_scale_ = 1.0F;  ///< pixels of a card that moves over those of one at rest, along a side
 };
 
 /// The cost and the error of the material, and of the other representations that a grating could have: a plot of error

@@ -1,5 +1,6 @@
 #include "editor/inspector/preview.h"
 
+#include <algorithm>
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/matrix.hpp>
@@ -45,7 +46,6 @@ gpu::Program overlay_program() {
 }
 
 constexpr glm::vec3 kUp(0.0F, 1.0F, 0.0F);
-constexpr glm::vec3 kPosition(0.0F, 0.052F, 0.0F);  ///< of the object, metres
 
 /// The rotation about the x axis at which each shape shows its colours.
 float tilt_deg(PreviewShape shape) {
@@ -62,7 +62,7 @@ glm::mat4 stage_rotation(const Stage& stage) {
 
 /// The transform of the object's root.
 scene::Transform root_transform(const PreviewInputs& inputs) {
-    const glm::mat4 to_world = glm::rotate(glm::translate(stage_rotation(inputs.stage), kPosition),
+    const glm::mat4 to_world = glm::rotate(glm::translate(stage_rotation(inputs.stage), kObjectPosition),
                                            glm::radians(tilt_deg(inputs.object->shape)), {1.0F, 0.0F, 0.0F});
     scene::Transform at{.translation = glm::vec3(to_world[3]), .rotation = glm::quat_cast(glm::mat3(to_world))};
     if (!inputs.object->scene) return at;
@@ -140,6 +140,7 @@ void Preview::Side::show(const PreviewInputs& inputs, const CookedSurfaces& want
     if (std::exchange(object, inputs.object) != inputs.object) {
         for (const ecs::Entity entity : all) world.destroy(entity);
         all.clear();
+        tops.clear();
         drawn.clear();
         surfaces.clear();
         if (object->scene)
@@ -150,6 +151,10 @@ void Preview::Side::show(const PreviewInputs& inputs, const CookedSurfaces& want
     surfaces.resize(wanted.size());
     for (std::size_t i = 0; i < wanted.size(); ++i)
         if (std::exchange(surfaces[i], wanted[i]) != wanted[i]) show_surface(i);
+    std::erase_if(uploaded, [&](const auto& entry) {
+        return std::ranges::none_of(
+            surfaces, [&](const auto& surface) { return surface && surface->material.get() == entry.first; });
+    });
     set_glare(inputs.glare_of && *inputs.glare_of < wanted.size() ? wanted[*inputs.glare_of] : nullptr);
 }
 
@@ -170,8 +175,10 @@ void Preview::Side::add_shape() {
 void Preview::Side::add_scene() {
     const scene::ImportedScene& imported = object->scene->imported;
     std::vector<ecs::Entity> nodes;
-    for (const scene::ImportedNode& node : imported.nodes)
+    for (const scene::ImportedNode& node : imported.nodes) {
         nodes.push_back(add(node.parent ? nodes[*node.parent] : root, node.local));
+        if (!node.parent) tops.emplace_back(nodes.back(), node.local);
+    }
     for (const scene::ImportedInstance& instance : imported.instances) {
         const ecs::Entity entity = add(nodes[instance.node], {});
         world.add(entity, render::MeshInstance(object->parts.meshes[instance.mesh]));
@@ -202,20 +209,21 @@ void Preview::Side::show_surface(std::size_t material) {
 
 void Preview::Side::add_surface(const CookedSurface& surface, const std::vector<ecs::Entity>& parts) {
     if (surface.material) {
-        const auto uploaded = diffraction::make_gpu_material(surface.material, picture.xyz_to_working());
+        auto& material = uploaded[surface.material.get()];
+        if (!material) material = diffraction::make_gpu_material(surface.material, picture.xyz_to_working());
         for (const ecs::Entity part : parts)
             diffraction::add_surface(world, part,
-                                     {.material = uploaded,
+                                     {.material = material,
                                       .groove_rotation = static_cast<float>(surface.groove_rotation),
                                       .grooves = surface.grooves},
                                      surface.has_base);
     } else if (surface.film->in_scene && surface.film->cooked) {
         const thin_film::CookedFilm& cooked = *surface.film->cooked;
-        const auto uploaded = std::make_shared<const thin_film::GpuFilm>(cooked.table, picture.xyz_to_working(),
-                                                                         cooked.material.illuminant.name);
+        const auto film = std::make_shared<const thin_film::GpuFilm>(cooked.table, picture.xyz_to_working(),
+                                                                     cooked.material.illuminant.name);
         render::SurfaceTextures textures(*surface.film->textures);
         for (const ecs::Entity part : parts)
-            thin_film::add_film(world, part, *surface.film->in_scene, uploaded, textures, object->scene->file.string(),
+            thin_film::add_film(world, part, *surface.film->in_scene, film, textures, object->scene->file.string(),
                                 thin_film::kIridescenceExtension);
     } else if (surface.film->cooked) {
         for (const ecs::Entity part : parts)
@@ -238,6 +246,8 @@ void Preview::Side::set_glare(const std::shared_ptr<const CookedSurface>& surfac
 void Preview::Side::draw(const PreviewInputs& inputs, float seconds) {
     const Stage& stage = inputs.stage;
     world.get<scene::Transform>(root) = root_transform(inputs);
+    for (const auto& [entity, rest] : tops)
+        if (object->tilts) world.get<scene::Transform>(entity).rotation = inputs.tilt * rest.rotation;
     if (stage.lamp) {
         if (!world.alive(lamp)) lamp = world.create();
         world.add(lamp, scene::DirectionalLight{

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <glm/gtc/quaternion.hpp>
 #include <glm/mat4x4.hpp>
 #include <glm/vec2.hpp>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -20,6 +22,7 @@
 #include "engine/view/picture.h"
 #include "modules/diffraction/asset/cooked_material.h"
 #include "modules/diffraction/model/grating.h"
+#include "modules/diffraction/runtime/gpu_material.h"
 
 namespace rowland::inspector {
 
@@ -60,10 +63,11 @@ struct PreviewInputs {
     Stage stage;
     std::shared_ptr<const PreviewObject> object;
     std::shared_ptr<const InspectedLight> light;
-    CookedSurfaces surfaces;                ///< by material
-    std::optional<CookedSurfaces> saved;    ///< drawn into a second picture; nullopt: not drawn
-    std::optional<std::size_t> grooves_of;  ///< the material whose grooves are drawn as strokes; nullopt: none
-    std::optional<std::size_t> glare_of;    ///< the material that is held before the camera as well; nullopt: none
+    CookedSurfaces surfaces;                 ///< by material
+    std::optional<CookedSurfaces> saved;     ///< drawn into a second picture; nullopt: not drawn
+    std::optional<std::size_t> grooves_of;   ///< the material whose grooves are drawn as strokes; nullopt: none
+    std::optional<std::size_t> glare_of;     ///< the material that is held before the camera as well; nullopt: none
+    glm::quat tilt{1.0F, 0.0F, 0.0F, 0.0F};  ///< of an object that tilts
 
     friend bool operator==(const PreviewInputs&, const PreviewInputs&) = default;
 };
@@ -129,13 +133,16 @@ class Preview {
 
         view::Picture picture;
         ecs::World world;
-        ecs::Entity root;              ///< above the object
-        std::vector<ecs::Entity> all;  ///< of the object
+        ecs::Entity root;                                            ///< above the object
+        std::vector<ecs::Entity> all;                                ///< of the object
+        std::vector<std::pair<ecs::Entity, scene::Transform>> tops;  ///< nodes without a parent, at rest
         std::vector<Drawn> drawn;
         ecs::Entity lamp;
         std::shared_ptr<const PreviewObject> object;
         std::shared_ptr<const InspectedLight> light;
         CookedSurfaces surfaces;
+        /// On the GPU, by what is uploaded: equal ones share their maps, which stay when the object is replaced.
+        std::map<const diffraction::CookedMaterial*, std::shared_ptr<const diffraction::GpuMaterial>> uploaded;
         std::shared_ptr<const CookedSurface> sheet;  ///< before the camera; null: none
     };
 
@@ -154,6 +161,8 @@ class Preview {
     bool drawn_ = false;
 };
 
+/// Where the object stands, metres.
+inline constexpr glm::vec3 kObjectPosition(0.0F, 0.052F, 0.0F);
 /// The initial camera, that of the demo's disc.
 scene::Camera opening_camera();
 

@@ -134,11 +134,11 @@ float fitting_scale(const scene::Bounds& box) {
     return largest > 0.0F ? static_cast<float>(kSize) / largest : 1.0F;
 }
 
-std::shared_ptr<const SceneObject> load_scene_object(const std::filesystem::path& file) {
-    const std::array<std::string, 3> handled = {diffraction::kGltfExtension, thin_film::kIridescenceExtension,
-                                                thin_film::kIorExtension};
+namespace {
+
+std::shared_ptr<const SceneObject> scene_object(const std::filesystem::path& file, scene::ImportedScene imported) {
     SceneObject object{.file = file,
-                       .imported = scene::load_gltf(file, handled),
+                       .imported = std::move(imported),
                        .meshes = {},
                        .materials = {},
                        .without_material = {},
@@ -150,6 +150,19 @@ std::shared_ptr<const SceneObject> load_scene_object(const std::filesystem::path
     for (scene::Mesh& mesh : std::exchange(object.imported.meshes, {}))
         object.meshes.push_back(std::make_shared<const scene::Mesh>(std::move(mesh)));
     return std::make_shared<const SceneObject>(std::move(object));
+}
+
+const std::array<std::string, 3> kHandled = {diffraction::kGltfExtension, thin_film::kIridescenceExtension,
+                                             thin_film::kIorExtension};
+
+}  // namespace
+
+std::shared_ptr<const SceneObject> load_scene_object(const std::filesystem::path& file) {
+    return scene_object(file, scene::load_gltf(file, kHandled));
+}
+
+std::shared_ptr<const SceneObject> load_scene_object(std::span<const std::byte> glb, const std::string& name) {
+    return scene_object(name, scene::load_glb(glb, name, kHandled));
 }
 
 SceneUpload upload(const SceneObject& scene) {

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -64,6 +65,8 @@ struct SceneObject {
 
 /// Loads a .gltf or .glb. Runs on any thread. Throws Error (input).
 std::shared_ptr<const SceneObject> load_scene_object(const std::filesystem::path& file);
+/// The same for the bytes of a .glb; `name` is for messages.
+std::shared_ptr<const SceneObject> load_scene_object(std::span<const std::byte> glb, const std::string& name);
 
 /// The meshes and materials of a scene on the GPU, by the indices of the file.
 struct SceneUpload {
@@ -78,6 +81,7 @@ struct PreviewObject {
     PreviewShape shape = PreviewShape::Disc;
     SceneUpload parts;                         ///< of a shape: its mesh, no materials
     std::shared_ptr<const SceneObject> scene;  ///< null: a shape
+    bool tilts = false;                        ///< of a scene: nodes without a parent follow PreviewInputs::tilt
 };
 
 }  // namespace rowland::inspector

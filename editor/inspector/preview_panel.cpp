@@ -52,10 +52,6 @@ double nearest_rotation(double angle, double reference) {
 constexpr ImU32 kBright = IM_COL32(240, 240, 240, 255);
 constexpr ImU32 kBlack = IM_COL32(0, 0, 0, 255);
 
-ImTextureID texture_of(const gpu::Framebuffer& picture) {
-    return reinterpret_cast<ImTextureID>(static_cast<std::intptr_t>(picture.colour().id()));
-}
-
 /// A slider without a label; its name is for the control map.
 struct Slider {
     const char* name;
@@ -78,6 +74,26 @@ void draw_slider(const Slider& slider, Stage& stage, ControlMap& controls) {
     ImGui::SliderFloat((std::string("##") + slider.name).c_str(), &(stage.*slider.value), slider.minimum,
                        slider.maximum, slider.format);
     controls.mark(slider.name);
+}
+
+void draw_lamp_sliders(Stage& stage, ControlMap& controls) {
+    if (!stage.lamp) return;
+    for (const Slider& slider : kLamp) {
+        if (&slider != kLamp) ImGui::SameLine();
+        draw_slider(slider, stage, controls);
+    }
+}
+
+/// Says why there is no picture yet.
+void draw_waiting(const char* words, const ImVec2& corner, const ImVec2& size) {
+    const ImVec2 extent = ImGui::CalcTextSize(words);
+    ImGui::GetWindowDrawList()->AddText({corner.x + (size.x - extent.x) / 2.0F, corner.y + (size.y - extent.y) / 2.0F},
+                                        kBright, words);
+}
+
+void draw_note(const char* words, const ImVec2& corner, const ImVec2& size) {
+    const float font = ImGui::GetFontSize();
+    ImGui::GetWindowDrawList()->AddText({corner.x + 0.6F * font, corner.y + size.y - 1.6F * font}, kBright, words);
 }
 
 void draw_shape_picker(View& view, bool has_scene, ControlMap& controls) {
@@ -177,14 +193,7 @@ void PreviewPanel::draw_tools(bool has_scene, bool has_grating, bool has_saved, 
                               ControlMap& controls) {
     draw_shape_picker(view, has_scene, controls);
     continue_line(9.0F);
-    draw_light_picker(light, controls);
-    for (const Slider* slider : {&kRotation, &kExposure}) {
-        continue_line(slider->width);
-        draw_slider(*slider, view.stage, controls);
-    }
-    continue_line(4.5F);
-    ImGui::Checkbox("Lamp", &view.stage.lamp);
-    controls.mark("lamp");
+    draw_light_tools(light, view, controls);
     if (has_grating) {
         continue_line(7.5F);
         ImGui::Checkbox("Look through", &view.looks_through);
@@ -198,38 +207,88 @@ void PreviewPanel::draw_tools(bool has_scene, bool has_grating, bool has_saved, 
         controls.mark("compare");
         if (ImGui::IsItemHovered()) ImGui::SetTooltip("Left of the line: as saved. Drag the line.");
     }
-    if (!view.stage.lamp) return;
-    for (const Slider& slider : kLamp) {
-        if (&slider != kLamp) ImGui::SameLine();
-        draw_slider(slider, view.stage, controls);
+    draw_lamp_sliders(view.stage, controls);
+}
+
+void PreviewPanel::draw_light_tools(LightChoice& light, View& view, ControlMap& controls) {
+    draw_light_picker(light, controls);
+    for (const Slider* slider : {&kRotation, &kExposure}) {
+        continue_line(slider->width);
+        draw_slider(*slider, view.stage, controls);
     }
+    continue_line(4.5F);
+    ImGui::Checkbox("Lamp", &view.stage.lamp);
+    controls.mark("lamp");
+}
+
+std::optional<std::pair<ImVec2, ImVec2>> PreviewPanel::begin_picture(ControlMap& controls) {
+    const ImVec2 corner = ImGui::GetCursorScreenPos();
+    const ImVec2 size = ImGui::GetContentRegionAvail();
+    if (size.x < 8.0F || size.y < 8.0F) return std::nullopt;
+    ImGui::InvisibleButton("picture", size);
+    controls.mark("picture");
+    return std::pair(corner, size);
+}
+
+/// Another object is seen from `camera`.
+void PreviewPanel::follow(const void* shown, const scene::Camera& camera) {
+    if (std::exchange(shown_, shown) != shown) camera_ = scene::OrbitCamera(camera, kOrbit);
 }
 
 void PreviewPanel::draw(OpenDocument& opened, LightChoice& light, View& view, const platform::InputState& input,
                         float pixels_per_unit, float seconds, ControlMap& controls) {
     has_saved_ = opened.surface(true) != nullptr;
-    if (std::exchange(scene_, opened.scene()) != opened.scene()) camera_ = scene::OrbitCamera(opening_camera(), kOrbit);
+    follow(opened.scene(), opening_camera());
     draw_tools(opened.scene() != nullptr, opened.document().has_grating(), has_saved_, light, view, controls);
-    const ImVec2 corner = ImGui::GetCursorScreenPos();
-    const ImVec2 size = ImGui::GetContentRegionAvail();
-    if (size.x < 8.0F || size.y < 8.0F) return;
-    ImGui::InvisibleButton("picture", size);
-    controls.mark("picture");
-    use_mouse(opened.document(), view, input, corner, size);
-    if (!view.ready()) {
-        const char* words = "Preparing material and light…";
-        const ImVec2 extent = ImGui::CalcTextSize(words);
-        ImGui::GetWindowDrawList()->AddText(
-            {corner.x + (size.x - extent.x) / 2.0F, corner.y + (size.y - extent.y) / 2.0F}, kBright, words);
-        return;
-    }
+    const auto rectangle = begin_picture(controls);
+    if (!rectangle) return;
+    const auto [corner, size] = *rectangle;
+    use_mouse(&opened.document(), view, input, corner, size);
+    if (!view.ready()) return draw_waiting("Preparing material and light…", corner, size);
     view.draw(glm::ivec2(pixels_per_unit * glm::vec2(size.x, size.y)), camera_.camera(), comparing, seconds);
     draw_picture(view, corner, size);
     if (opened.cooking() || light.loading())
-        ImGui::GetWindowDrawList()->AddText(
-            {corner.x + 0.6F * ImGui::GetFontSize(), corner.y + size.y - 1.6F * ImGui::GetFontSize()}, kBright,
-            light.loading() ? "loading the light…" : "cooking…");
+        draw_note(light.loading() ? "loading the light…" : "cooking…", corner, size);
     draw_knob(opened.document(), view, corner, size, controls);
+    if (view.stage.lamp) draw_lamp(view.stage, corner, size, controls);
+}
+
+void PreviewPanel::draw(FoilStudio& studio, LightChoice& light, View& view, const platform::InputState& input,
+                        float pixels_per_unit, float seconds, ControlMap& controls) {
+    constexpr float kDistance = 0.41F;
+    has_saved_ = false;
+    follow(&studio, card_camera(kDistance));
+    draw_light_tools(light, view, controls);
+    continue_line(4.5F);
+    ImGui::Checkbox("Tilt", &studio.tilting);
+    controls.mark("tilt");
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("The card moves as a hand tilts it. A drag stops it.");
+    continue_line(5.0F);
+    if (ImGui::Button("Turn over")) {
+        const scene::Camera camera = camera_.camera();
+        camera_ = scene::OrbitCamera(
+            scene::Camera(camera.target + glm::vec3(-1.0F, 1.0F, -1.0F) * (camera.eye - camera.target), camera.target),
+            kOrbit);
+    }
+    controls.mark("turn over");
+    draw_lamp_sliders(view.stage, controls);
+    const auto rectangle = begin_picture(controls);
+    if (!rectangle) return;
+    const auto [corner, size] = *rectangle;
+    use_mouse(nullptr, view, input, corner, size);
+    if (drag_ == Drag::Orbit && ImGui::IsItemActive()) studio.tilting = false;
+    if (!view.ready()) return draw_waiting("Preparing card and light…", corner, size);
+    if (studio.moves()) {
+        constexpr float kSlow_s = 0.25F;
+        constexpr float kFast_s = 0.15F;
+        constexpr float kStep = 0.75F;
+        if (seconds > kSlow_s) moving_scale_ = std::max(kStep * moving_scale_, 0.2F);
+        if (seconds < kFast_s) moving_scale_ = std::min(moving_scale_ / kStep, 1.0F);
+    }
+    const float scale = pixels_per_unit * (studio.moves() ? moving_scale_ : 1.0F);
+    view.draw(glm::ivec2(scale * glm::vec2(size.x, size.y)), camera_.camera(), false, seconds);
+    draw_picture(view, corner, size);
+    if (light.loading()) draw_note("loading the light…", corner, size);
     if (view.stage.lamp) draw_lamp(view.stage, corner, size, controls);
 }
 
@@ -237,7 +296,6 @@ void PreviewPanel::draw_picture(const View& view, const ImVec2& corner, const Im
     ImDrawList& draw = *ImGui::GetWindowDrawList();
     const float font = ImGui::GetFontSize();
     const ImVec2 end(corner.x + size.x, corner.y + size.y);
-    // The first row of a framebuffer is its lowest.
     draw.AddImage(texture_of(view.preview().display()), corner, end, {0.0F, 1.0F}, {1.0F, 0.0F});
     if (comparing && has_saved_) draw_saved(view, corner, end);
     if (const gpu::Framebuffer* grooves = view.preview().grooves())
@@ -288,24 +346,24 @@ bool PreviewPanel::near_lamp(const Stage& stage, const glm::vec2& at, const ImVe
     return glm::length(apart) < 0.8F * ImGui::GetFontSize();
 }
 
-void PreviewPanel::use_mouse(Document& document, View& view, const platform::InputState& input, const ImVec2& corner,
+void PreviewPanel::use_mouse(Document* document, View& view, const platform::InputState& input, const ImVec2& corner,
                              const ImVec2& size) {
     const ImGuiIO& io = ImGui::GetIO();
     const glm::vec2 at((io.MousePos.x - corner.x) / size.x, (io.MousePos.y - corner.y) / size.y);
     const bool near_line = comparing && has_saved_ && std::abs(at.x - line_) < 6.0F / size.x;
     const bool on_lamp = near_lamp(view.stage, at, size);
     if (ImGui::IsItemActivated()) {
-        drag_ = on_lamp                                                 ? Drag::Lamp
-                : near_line                                             ? Drag::Line
-                : is_on_knob(document, view, corner, size, io.MousePos) ? Drag::Grooves
-                                                                        : Drag::None;
+        drag_ = on_lamp                                                              ? Drag::Lamp
+                : near_line                                                          ? Drag::Line
+                : document && is_on_knob(*document, view, corner, size, io.MousePos) ? Drag::Grooves
+                                                                                     : Drag::None;
         if (on_lamp) lamp_behind_ = lamp_handle(camera_.camera(), size.x / size.y, view.stage).behind;
     }
     scene::OrbitInput orbit;
     if (ImGui::IsItemActive()) {
         if (drag_ == Drag::None && ImGui::IsMouseDragging(ImGuiMouseButton_Left, 4.0F)) drag_ = Drag::Orbit;
         if (drag_ == Drag::Line) line_ = std::clamp(at.x, 0.0F, 1.0F);
-        if (drag_ == Drag::Grooves) drag_knob(document, view, at);
+        if (drag_ == Drag::Grooves) drag_knob(*document, view, at);
         if (drag_ == Drag::Lamp && (io.MouseDelta.x != 0.0F || io.MouseDelta.y != 0.0F))
             drag_lamp(view.stage, camera_.camera(), size.x / size.y, at, lamp_behind_);
         if (drag_ == Drag::Orbit) orbit.drag = {io.MouseDelta.x, io.MouseDelta.y};
@@ -313,7 +371,7 @@ void PreviewPanel::use_mouse(Document& document, View& view, const platform::Inp
     if (ImGui::IsItemHovered()) orbit.scroll = static_cast<float>(input.scroll().y);
     camera_.update(orbit);
     if (ImGui::IsItemDeactivated() && drag_ == Drag::None) view.pick(at);
-    if (ImGui::IsItemDeactivated() && drag_ == Drag::Grooves) document.finish_edit();
+    if (ImGui::IsItemDeactivated() && drag_ == Drag::Grooves) document->finish_edit();
     if (ImGui::IsItemHovered() && on_lamp) ImGui::SetTooltip("Drag: move the lamp");
     if (ImGui::IsItemHovered() && near_line) ImGui::SetMouseCursor(ImGuiMouseCursor_ResizeEW);
 }

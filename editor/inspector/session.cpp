@@ -51,15 +51,47 @@ Session::Session(const post::OcioConfig& config, const SessionSettings& settings
     : light({settings.content_folder / "probes", settings.captures}, settings.probe_mapping, messages),
       opened(settings.content_folder / "materials", messages),
       view(config, settings.still, opened, light, messages),
-      measurement(opened, light, view, messages) {}
+      measurement(opened, light, view, messages),
+      still_(settings.still) {}
 
 void Session::open(const std::filesystem::path& path) {
-    bool is_light = false;
-    if (!messages.attempt([&] { is_light = is_light_file(path); })) return;
-    is_light ? light.choose(path) : opened.open(path);
+    messages.attempt([&] {
+        if (is_foil_recipe_file(path)) return start_foil(FoilRecipe::open(path));
+        if (is_picture_file(path) && foil) return foil->use_picture(foil->dropped_field(), path);
+        if (is_picture_file(path) && !opened.document().is_scene()) return make_foil(path);
+        if (is_light_file(path)) return light.choose(path);
+        close_foil();
+        opened.open(path);
+    });
+}
+
+bool Session::is_replaced_by(const std::filesystem::path& path) const {
+    try {
+        if (is_picture_file(path)) return !foil && !opened.document().is_scene();
+        if (is_foil_recipe_file(path)) return true;
+        return foil ? !is_light_file(path) : opened.is_replaced_by(path);
+    } catch (const Error&) {
+        return false;  // the file will be refused
+    }
+}
+
+void Session::start_foil(FoilRecipe recipe) {
+    messages.say(recipe.name() + ": a foil card");
+    foil = std::make_unique<FoilStudio>(std::move(recipe), messages);
+    foil->tilting = !still_;
+}
+
+void Session::make_foil(const std::filesystem::path& artwork) {
+    messages.attempt([&] { start_foil(FoilRecipe::make_new(artwork)); });
+}
+
+void Session::close_foil() {
+    foil.reset();
+    view.card.reset();
 }
 
 void Session::open_preset(const std::string& name) {
+    close_foil();
     if (!opened.open_preset(name) || opened.document().is_scene()) return;
     const Document& document = opened.document();
     const bool lattice = document.has_grating() && document.material().grating.lattice.has_value();
@@ -105,11 +137,16 @@ bool Session::take_capture() {
 }
 
 bool Session::update() {
-    bool news = opened.update();
-    news = take_capture() || news;
+    bool news = take_capture();
+    if (foil) {
+        news = foil->update() || news;
+        view.card = foil->card();
+    } else {
+        news = opened.update() || news;  // a document that is not shown is not cooked
+    }
     view.update();
     news = light.update() || news;
-    news = measurement.update() || news;
+    news = (!foil && measurement.update()) || news;
     const bool before = std::exchange(was_busy_, busy());
     return news || was_busy_ != before;
 }

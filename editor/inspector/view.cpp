@@ -46,7 +46,7 @@ void View::update() {
 }
 
 void View::pick(const glm::vec2& at) {
-    const auto surface = preview_.pick(at);
+    const auto surface = card ? std::nullopt : preview_.pick(at);
     if (!surface) return;
     if (object_->scene && surface->material) {
         document_.document().choose(*surface->material);
@@ -60,6 +60,10 @@ void View::pick(const glm::vec2& at) {
 
 void View::draw(glm::ivec2 size, const scene::Camera& camera, bool with_saved, float seconds) {
     if (!ready() || size.x < 1 || size.y < 1) return;
+    if (card) {
+        messages_.attempt([&] { preview_.show(card_inputs(size, camera)); });
+        return preview_.draw(seconds);
+    }
     const std::size_t chosen = object_->scene ? document_.document().chosen() : 0;
     const auto surfaces = [&](bool as_saved) {
         return object_->scene ? document_.surfaces(as_saved) : CookedSurfaces{document_.surface(as_saved)};
@@ -80,6 +84,19 @@ void View::draw(glm::ivec2 size, const scene::Camera& camera, bool with_saved, f
     update_point();
     const PixelInputs inputs{document_.surface(false), light_.current(), point_, stage};
     if (picked_ && std::exchange(pixel_inputs_, inputs) != inputs) read_picked_pixel();
+}
+
+PreviewInputs View::card_inputs(glm::ivec2 size, const scene::Camera& camera) const {
+    PreviewInputs inputs;
+    inputs.size = size;
+    inputs.eye = camera.eye;
+    inputs.target = camera.target;
+    inputs.stage = stage;
+    inputs.light = light_.current();
+    inputs.object = card->object;
+    inputs.surfaces = card->surfaces;
+    inputs.tilt = card->tilt;
+    return inputs;
 }
 
 void View::read_picked_pixel() {

@@ -24,6 +24,13 @@ struct DrawnAs {
     diffraction::ShadingCost cost;  ///< of the first
 };
 
+/// An object that is shown in place of the document.
+struct ShownCard {
+    std::shared_ptr<const PreviewObject> object;
+    CookedSurfaces surfaces;
+    glm::quat tilt{1.0F, 0.0F, 0.0F, 0.0F};
+};
+
 struct PickedPixel {
     glm::vec2 position{0.5F};  ///< from the picture's upper left corner, in [0, 1]
     glm::vec3 working{0.0F};   ///< scene-linear
@@ -39,8 +46,9 @@ class View {
          Messages& messages);
 
     Stage stage;
-    bool looks_through = false;  ///< the chosen material is held before the camera as well
-    bool shows_grooves = false;  ///< strokes along the grooves of the chosen material
+    bool looks_through = false;     ///< the chosen material is held before the camera as well
+    bool shows_grooves = false;     ///< strokes along the grooves of the chosen material
+    std::optional<ShownCard> card;  ///< nullopt: the document is shown
 
     /// PreviewShape::Scene shows the document's scene; it is ignored if there is none.
     void choose_shape(PreviewShape shape);
@@ -53,9 +61,16 @@ class View {
     /// every frame, after the document's update().
     void update();
     /// Whether there are a light and a material, or a scene, to draw.
-    bool ready() const { return light_.current() && (document_.surface(false) || document_.document().is_scene()); }
+    bool ready() const {
+        return light_.current() &&
+               (card ? card->object != nullptr : document_.surface(false) || document_.document().is_scene());
+    }
     /// Draws the preview if it is ready and the picture may have changed. `with_saved`: also the saved version.
     void draw(glm::ivec2 size, const scene::Camera& camera, bool with_saved, float seconds);
+    /// Null before the first.
+    LightChoice::Light light() const { return light_.current(); }
+    /// The inputs of a picture of `card`, which must be there.
+    PreviewInputs card_inputs(glm::ivec2 size, const scene::Camera& camera) const;
     /// Whether the next picture may differ from the last for the same inputs.
     bool changes() const { return ready() && preview_.changes(); }
 

@@ -65,6 +65,20 @@ glm::dvec3 in_gamut(const glm::dvec3& xyz) {
 
 }  // namespace
 
+void draw_refusal(const std::string& message) {
+    ImGui::PushTextWrapPos();
+    ImGui::TextColored(kRefused, "%s", message.c_str());
+    ImGui::PopTextWrapPos();
+}
+
+ImTextureID texture_of(const gpu::Framebuffer& picture) {
+    return texture_of(picture.colour());
+}
+
+ImTextureID texture_of(const gpu::Texture& picture) {
+    return reinterpret_cast<ImTextureID>(static_cast<std::intptr_t>(picture.id()));
+}
+
 void draw_row(const char* name, const std::string& value) {
     ImGui::TextDisabled("%s", name);
     ImGui::SameLine(8.0F * ImGui::GetFontSize());

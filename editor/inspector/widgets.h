@@ -12,10 +12,22 @@
 #include <string>
 #include <vector>
 
+#include "engine/gpu/framebuffer.h"
+#include "engine/gpu/texture.h"
+
 namespace rowland::inspector {
 
 /// Colours that all kinds of colour vision distinguish [Okabe & Ito 2008]; lines also differ in their dashes.
 ImU32 series_colour(std::size_t index, float alpha = 1.0F);
+
+/// The colour of what is refused.
+inline const ImVec4 kRefused(0.95F, 0.60F, 0.15F, 1.0F);
+/// Draws the message of a refusal.
+void draw_refusal(const std::string& message);
+
+/// For ImDrawList::AddImage(). The first row of a framebuffer is its lowest.
+ImTextureID texture_of(const gpu::Framebuffer& picture);
+ImTextureID texture_of(const gpu::Texture& picture);
 
 /// Draws a name and its value in two columns.
 void draw_row(const char* name, const std::string& value);

@@ -137,7 +137,8 @@ void Workbench::draw(const platform::InputState& input, bool keys_are_ours, cons
 
 void Workbench::note_facts() {
     const Document& document = session_.opened.document();
-    controls_.note("document", document.name() + (document.dirty() ? " *" : ""));
+    const bool dirty = session_.foil ? session_.foil->recipe().dirty() : document.dirty();
+    controls_.note("document", session_.document_name() + (dirty ? " *" : ""));
     controls_.note("refused", document.refusal() ? document.refusal()->message : "no");
     controls_.note("material", document.json().dump());
     controls_.note("shape is", preview_shape_name(session_.view.shape()));
@@ -146,42 +147,104 @@ void Workbench::note_facts() {
     if (!session_.messages.all().empty()) controls_.note("message", session_.messages.all().back().text);
 }
 
-std::vector<Command> Workbench::commands() {
+void Workbench::ask_artwork() {
+    dialogs_.ask_picture("The artwork of the card: a PNG or JPEG.", [this](const std::filesystem::path& path) {
+        dialogs_.ask_unsaved([this, path] {
+            session_.make_foil(path);
+            remember(layout_, path);
+        });
+    });
+}
+
+void Workbench::ask_film(FilmSettings settings) {
+    dialogs_.ask_file(
+        FileKind::Films, "An animated picture (.webp).", session_.foil->recipe().suggested(".webp"),
+        [this, settings](const std::filesystem::path& path) mutable {
+            if (!session_.foil || !session_.view.ready()) return;
+            settings.path = path;
+            session_.foil->begin_film(config_, settings, session_.view.card_inputs({1, 1}, preview_.camera()));
+        });
+}
+
+FoilActions Workbench::foil_actions() {
+    return {.choose_picture =
+                [this](const Field& field) {
+                    dialogs_.ask_picture(field.label + ": a PNG or JPEG.",
+                                         [this, &field](const std::filesystem::path& path) {
+                                             if (session_.foil) session_.foil->use_picture(field, path);
+                                         });
+                },
+            .save_card =
+                [this] {
+                    dialogs_.ask_file(FileKind::Models, "The card, a binary glTF file (.glb).",
+                                      session_.foil->recipe().suggested(".glb"),
+                                      [this](const std::filesystem::path& path) {
+                                          if (session_.foil) session_.foil->save_card(path);
+                                      });
+                },
+            .save_film = [this](FilmSettings settings) { ask_film(std::move(settings)); }};
+}
+
+std::vector<Command> Workbench::file_commands() {
     using platform::Key;
     Document& document = session_.opened.document();
-    const auto scale_by = [this](float step) {
-        return [this, step] { layout_.scale = std::clamp(layout_.scale + step, 0.5F, 4.0F); };
-    };
+    FoilStudio* const foil = session_.foil.get();
     std::vector<Command> result = {
+        {"File", "New foil card…", "Ctrl+N", Key::N, [this] { ask_artwork(); }},
         {"File", "Open…", "Ctrl+O", Key::O, [this] { dialogs_.ask_open(); }},
         {"File", "Save", "Ctrl+S", Key::S, [this] { dialogs_.save(); }},
         {"File", "Save as…", "Ctrl+Shift+S", Key::S, [this] { dialogs_.ask_save_as(); }},
-        {"File",
-         "Close scene",
-         {},
-         {},
-         [this] { dialogs_.ask_unsaved([this] { session_.opened.close_scene(); }); },
-         session_.opened.document().is_scene()},
-        {"File",
-         "Open in the demo",
-         {},
-         {},
-         [this] { session_.open_in_demo(); },
-         document.is_scene() || document.has_grating()},
-        {"File", "Capture the boxes' light", "F9", Key::F9, [this] { session_.capture_probes(); },
-         session_.boxes() > 0 && !session_.capturing()},
+    };
+    if (foil != nullptr) {
+        result.push_back(
+            {"File", "Close foil card", {}, {}, [this] { dialogs_.ask_unsaved([this] { session_.close_foil(); }); }});
+    } else {
+        const std::vector<Command> of_documents = {
+            {"File",
+             "Close scene",
+             {},
+             {},
+             [this] { dialogs_.ask_unsaved([this] { session_.opened.close_scene(); }); },
+             document.is_scene()},
+            {"File",
+             "Open in the demo",
+             {},
+             {},
+             [this] { session_.open_in_demo(); },
+             document.is_scene() || document.has_grating()},
+            {"File", "Capture the boxes' light", "F9", Key::F9, [this] { session_.capture_probes(); },
+             session_.boxes() > 0 && !session_.capturing()},
+        };
+        result.insert(result.end(), of_documents.begin(), of_documents.end());
+    }
+    const auto undo = [this, foil] { foil ? foil->recipe().undo() : session_.opened.document().undo(); };
+    const auto redo = [this, foil] { foil ? foil->recipe().redo() : session_.opened.document().redo(); };
+    const bool can_undo = foil ? foil->recipe().can_undo() : document.can_undo();
+    const bool can_redo = foil ? foil->recipe().can_redo() : document.can_redo();
+    const std::vector<Command> last = {
         {"File", ""},
         {"File", "Quit", "Ctrl+Q", Key::Q, [this] { ask_to_close(); }},
-        {"Edit", "Undo", "Ctrl+Z", Key::Z, [&document] { document.undo(); }, document.can_undo()},
-        {"Edit", "Redo", "Ctrl+Shift+Z", Key::Z, [&document] { document.redo(); }, document.can_redo()},
+        {"Edit", "Undo", "Ctrl+Z", Key::Z, undo, can_undo},
+        {"Edit", "Redo", "Ctrl+Shift+Z", Key::Z, redo, can_redo},
+        {"", "Redo", "Ctrl+Y", Key::Y, redo, can_redo},
     };
+    result.insert(result.end(), last.begin(), last.end());
+    return result;
+}
+
+std::vector<Command> Workbench::commands() {
+    using platform::Key;
+    const auto scale_by = [this](float step) {
+        return [this, step] { layout_.scale = std::clamp(layout_.scale + step, 0.5F, 4.0F); };
+    };
+    std::vector<Command> result = file_commands();
     const char* category = "";
     for (const Preset& preset : OpenDocument::presets()) {
         if (std::string_view(std::exchange(category, preset.category)) != preset.category)
             result.push_back({.menu = "Presets", .name = "", .title = preset.category});
         const auto run = [this, file = preset.file] {
             const auto open = [this, file] { session_.open_preset(file); };
-            session_.opened.document().is_scene() ? open() : dialogs_.ask_unsaved(open);
+            !session_.foil&& session_.opened.document().is_scene() ? open() : dialogs_.ask_unsaved(open);
         };
         result.push_back({.menu = "Presets", .name = preset.file, .run = run, .title = preset.name});
     }
@@ -190,13 +253,13 @@ std::vector<Command> Workbench::commands() {
         result.push_back({"View", preview_shape_name(shape), fmt::format("Ctrl+{}", i + 1),
                           static_cast<Key>(static_cast<std::size_t>(Key::Digit1) + i),
                           [this, shape] { session_.view.choose_shape(shape); },
-                          shape != PreviewShape::Scene || session_.opened.scene() != nullptr,
+                          !session_.foil && (shape != PreviewShape::Scene || session_.opened.scene() != nullptr),
                           shape == session_.view.shape()});
     }
     const std::vector<Command> view_and_help = {
         {"View", ""},
         {"View", "Compare with saved", "F6", Key::F6, [this] { preview_.comparing = !preview_.comparing; },
-         session_.opened.surface(true) != nullptr, preview_.comparing},
+         !session_.foil && session_.opened.surface(true) != nullptr, preview_.comparing},
         {"View", "Show grooves", "G", Key::G, [this] { session_.view.shows_grooves = !session_.view.shows_grooves; },
          true, session_.view.shows_grooves},
         {"View", "Frame the selection", "F", Key::F, [this] { preview_.frame(session_.view); }},
@@ -204,7 +267,6 @@ std::vector<Command> Workbench::commands() {
         {"View", "Larger text", "Ctrl+=", Key::Equal, scale_by(0.1F)},
         {"View", "Smaller text", "Ctrl+-", Key::Minus, scale_by(-0.1F)},
         {"Help", "Keys", "F1", Key::F1, [this] { help_ = !help_; }, true, help_},
-        {"", "Redo", "Ctrl+Y", Key::Y, [&document] { document.redo(); }},
         {"", "Larger text", "Ctrl+Shift+=", Key::Equal, scale_by(0.1F)},
     };
     result.insert(result.end(), view_and_help.begin(), view_and_help.end());
@@ -243,11 +305,42 @@ void Workbench::splitter(const char* name, const ImVec2& corner, const ImVec2& s
 }
 
 void Workbench::draw_tiles(const platform::InputState& input, const WorkbenchFrame& frame) {
+    const float top = ImGui::GetFrameHeight();
+    const float status = 1.9F * ImGui::GetFontSize();
+    const float height = frame.size.y - top - status;
+    session_.foil ? draw_foil_tiles(input, frame, height) : draw_document_tiles(input, frame, height);
+    draw_status(top + height, frame.size.x, status, frame.frame_ms);
+}
+
+void Workbench::draw_foil_tiles(const platform::InputState& input, const WorkbenchFrame& frame, float height) {
+    const float gap = 0.35F * ImGui::GetFontSize();
+    const float top = ImGui::GetFrameHeight();
+    const TileSizes sizes = tile_sizes(layout_, {frame.size.x, height}, ImGui::GetFontSize());
+    const float middle = frame.size.x - sizes.left - sizes.right - 2.0F * gap;
+    FoilStudio& foil = *session_.foil;
+    foil.film_step();
+    foil.advance(frame.seconds);
+    session_.view.card = foil.card();
+    if (begin_tile("Foil card", {0.0F, top}, {sizes.left, height})) foil_.draw(foil, foil_actions(), controls_);
+    ImGui::End();
+    // With the scrollbar always there the columns do not change from one frame to the next.
+    if (begin_tile("Types of foil", {frame.size.x - sizes.right, top}, {sizes.right, height},
+                   ImGuiWindowFlags_AlwaysVerticalScrollbar))
+        draw_foil_wall(foil, controls_);
+    ImGui::End();
+    if (begin_tile("Card", {sizes.left + gap, top}, {middle, height},
+                   ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse))
+        preview_.draw(foil, session_.light, session_.view, input, frame.pixels_per_unit, frame.seconds, controls_);
+    ImGui::End();
+    splitter("left splitter", {sizes.left, top}, {gap, height}, layout_.material_width, sizes.left, 1.0F);
+    splitter("right splitter", {frame.size.x - sizes.right - gap, top}, {gap, height}, layout_.physics_width,
+             sizes.right, -1.0F);
+}
+
+void Workbench::draw_document_tiles(const platform::InputState& input, const WorkbenchFrame& frame, float height) {
     const float font = ImGui::GetFontSize();
     const float gap = 0.35F * font;
     const float top = ImGui::GetFrameHeight();
-    const float status = 1.9F * font;
-    const float height = frame.size.y - top - status;
     const auto [left, right, below] = tile_sizes(layout_, {frame.size.x, height}, font);
     const float middle = frame.size.x - left - right - 2.0F * gap;
 
@@ -282,7 +375,6 @@ void Workbench::draw_tiles(const platform::InputState& input, const WorkbenchFra
     splitter("right splitter", {frame.size.x - right - gap, top}, {gap, height}, layout_.physics_width, right, -1.0F);
     splitter("lower splitter", {left + gap, top + height - below - gap}, {middle, gap}, layout_.price_height, below,
              -1.0F);
-    draw_status(top + height, frame.size.x, status, frame.frame_ms);
     // A window takes the focus when it appears. The fields shall have it, so that the first Tab goes to the first one.
     if (!std::exchange(focused_, true)) ImGui::SetWindowFocus("Material");
 }
@@ -292,8 +384,9 @@ void Workbench::draw_status(float top, float width, float height, double frame_m
     begin_tile("##status", {0.0F, top}, {width, height},
                ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoNav | ImGuiWindowFlags_NoScrollbar);
     const Document& document = session_.opened.document();
-    ImGui::TextUnformatted((document.name() + (document.dirty() ? " •" : "")).c_str());
-    if (document.dirty() && ImGui::IsItemHovered()) ImGui::SetTooltip("Not saved");
+    const bool dirty = session_.foil ? session_.foil->recipe().dirty() : document.dirty();
+    ImGui::TextUnformatted((session_.document_name() + (dirty ? " •" : "")).c_str());
+    if (dirty && ImGui::IsItemHovered()) ImGui::SetTooltip("Not saved");
     if (frame_ms > 0.0) {
         ImGui::SameLine();
         ImGui::TextDisabled("%.1f ms", frame_ms);

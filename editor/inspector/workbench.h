@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "editor/inspector/dialogs.h"
+#include "editor/inspector/foil_panel.h"
 #include "editor/inspector/layout.h"
 #include "editor/inspector/panels.h"
 #include "editor/inspector/session.h"
@@ -53,7 +54,12 @@ TileSizes tile_sizes(const Layout& layout, glm::vec2 size, float font);
 class Workbench {
  public:
     Workbench(const post::OcioConfig& config, Session& session, Layout& layout, ControlMap& controls)
-        : session_(session), layout_(layout), controls_(controls), physics_(config), dialogs_(session, layout) {}
+        : config_(config),
+          session_(session),
+          layout_(layout),
+          controls_(controls),
+          physics_(config),
+          dialogs_(session, layout) {}
 
     /// Call it between Ui::begin_frame() and Ui::draw(). `keys_are_ours`: whether shortcuts run; false while a text
     /// field has the keyboard.
@@ -70,20 +76,32 @@ class Workbench {
     /// Whether the user requested a screenshot since the last call.
     bool take_screenshot() { return std::exchange(screenshot_, false); }
     /// Whether the next frame differs without input: a message disappears, or curves are being computed.
-    bool due() const { return messages_.due() || film_.busy() || physics_.busy(); }
+    bool due() const {
+        const bool moves =
+            session_.foil && session_.view.ready() && (session_.foil->moves() || session_.foil->film() != nullptr);
+        return messages_.due() || film_.busy() || physics_.busy() || moves;
+    }
 
  private:
     std::vector<Command> commands();
+    std::vector<Command> file_commands();
+    void ask_artwork();
+    void ask_film(FilmSettings settings);
+    FoilActions foil_actions();
     void draw_tiles(const platform::InputState& input, const WorkbenchFrame& frame);
+    void draw_document_tiles(const platform::InputState& input, const WorkbenchFrame& frame, float height);
+    void draw_foil_tiles(const platform::InputState& input, const WorkbenchFrame& frame, float height);
     void draw_status(float top, float width, float height, double frame_ms);
     /// Drags `value`, a size in font heights; `shown`: its present size in screen coordinates; `sign`: 1 if the size
     /// grows to the right, −1 if it grows to the left or upward.
     void splitter(const char* name, const ImVec2& corner, const ImVec2& size, float& value, float shown, float sign);
     void note_facts();
 
+    const post::OcioConfig& config_;
     Session& session_;
     Layout& layout_;
     ControlMap& controls_;
+    FoilPanel foil_;
     MaterialPanel material_;
     ScenePanel scene_;
     PhysicsPanel physics_;

@@ -5,8 +5,10 @@
 #include <thread>
 
 #include "engine/core/file.h"
+#include "engine/image/byte_image.h"
 #include "modules/diffraction/asset/material.h"
 #include "tests/support/light.h"
+#include "tests/support/program.h"
 #include "tests/window/inspector_user.h"
 
 namespace rowland {
@@ -260,6 +262,80 @@ TEST_F(InspectorWindow, RefusedInputIsSaidAndNothingIsLost) {
     const Facts end = user.facts();
     EXPECT_EQ(end.at("document"), "cd.json *");
     EXPECT_EQ(material(end)["grating"]["orders"], json({-2, -1, 1, 2}));
+}
+
+TEST_F(InspectorWindow, AnArtworkBecomesAFoilCardInAFewClicksAndAFilm) {
+    std::vector<std::uint8_t> rgba;
+    for (int i = 0; i < 60 * 84; ++i)
+        rgba.insert(rgba.end(), {static_cast<std::uint8_t>(4 * (i % 60)), static_cast<std::uint8_t>(3 * (i / 60)), 120,
+                                 static_cast<std::uint8_t>(i % 60 < 30 ? 255 : 0)});
+    write_file_atomic(path("art.png"), image::encode_png(60, 84, 4, rgba));
+    const std::vector<std::uint8_t> dot(4, 255);
+    write_file_atomic(path("dot.png"), image::encode_png(1, 1, 4, dot));
+    InspectorUser user(folder_.path(), preset("cd"), {.folder = folder_.path()});
+    int clicks = 0;
+    const auto click = [&](const std::string& control) {
+        ++clicks;
+        user.click(control);
+    };
+    click("menu File");
+    click("menu New foil card…");
+    click("file art.png");
+    user.wait_for("foil card", "full");
+    user.wait_for("foil type tiles", " ");
+    user.facts();  // a tile finds its columns in its first frames
+    click("foil type tiles");
+    user.wait_for("foil", "tiles");
+    click("save card");
+    click("button Save");
+    user.wait_for("message", "art.glb");
+    EXPECT_LE(clicks, 12);
+    const test::Ended valid = test::run(
+        {"/usr/bin/env", "node", test::source_path("tests/unit/engine/scene/validate_gltf.cjs"), path("art.glb")});
+    if (valid.code != 77 && valid.code != 127) {
+        EXPECT_EQ(valid.code, 0) << valid.out << valid.err;
+    }
+    EXPECT_THAT(read_text_file(path("art.glb"), 1 << 24), HasSubstr("ROWLAND_materials_diffraction"));
+    {
+        SCOPED_TRACE("the card moves until it is dragged, and a refused picture changes nothing but its message");
+        const int before = user.frames();
+        std::this_thread::sleep_for(1s);
+        EXPECT_GT(user.frames(), before + 1);
+        user.drag("picture", {30, 0});
+        user.drop(path("dot.png"));
+        user.wait_for("foil refused", "dot.png: 1 x 1 texels");
+        user.key("ctrl+z");
+        user.wait_for("foil refused", "no");
+        user.wait_for("busy", "no");
+        user.wait_for_rest();
+    }
+    {
+        SCOPED_TRACE("a slider changes the recipe, which is saved and opened again");
+        user.drag("/foil/scale", {-20, 0});
+        const json recipe = json::parse(user.facts().at("foil"));
+        EXPECT_LT(recipe["foil"]["scale"], 1.0);
+        user.key("ctrl+s");
+        user.click("button Save");
+        user.wait_for("message", "art.json: saved");
+        user.drop(path("art.json"));
+        user.wait_for("foil card", "full");
+        EXPECT_EQ(json::parse(user.facts().at("foil")), recipe);
+    }
+    SCOPED_TRACE("a film");
+    user.click("save film");
+    for (const auto& [control, value] :
+         {std::pair("film width", "48"), {"film height", "64"}, {"film seconds", "0.4"}}) {
+        user.click(control);
+        user.enter(value);
+    }
+    user.click("film pngs");
+    user.click("film file");
+    user.click("button Save");
+    user.wait_for("message", "art.webp: the film");
+    EXPECT_THAT(read_text_file(path("art.webp"), 1 << 24).substr(0, 16), HasSubstr("WEBP"));
+    EXPECT_TRUE(std::filesystem::exists(path("art/0007.png")));
+    EXPECT_FALSE(std::filesystem::exists(path("art/0008.png")));
+    EXPECT_EQ(user.leave(), 0);
 }
 
 TEST_F(InspectorWindow, AFilmIsMadeFromNothingAttachedToASceneAndSaved) {
