@@ -1,4 +1,5 @@
-/** The worker of the foil studio: cards by foil.wasm, which is the foil library of the C++ tree. */
+/** The worker of the foil studio: cards by foil.wasm, which is the foil library of the C++ tree. Holds one card: its page
+ *  asks for one after the other. */
 import { BakeModule } from "../three/src/module.js";
 import { encodePng } from "./png.js";
 import { shaded, type Facts } from "./thumbnail.js";
@@ -83,15 +84,11 @@ const tasks = {
     },
 };
 
-// One task after the other, as the module has one card.
-let last: Promise<unknown> = Promise.resolve();
-addEventListener("message", ({ data: { id, task, args } }: MessageEvent) => {
-    last = last.then(async () => {
-        try {
-            const run = tasks[task as keyof typeof tasks] as (...all: unknown[]) => Promise<unknown>;
-            postMessage({ id, result: await run(...args) });
-        } catch (error) {
-            postMessage({ id, error: (error as Error).message });
-        }
-    });
+addEventListener("message", async ({ data: { id, task, args } }: MessageEvent) => {
+    try {
+        const run = tasks[task as keyof typeof tasks] as (...all: unknown[]) => Promise<unknown>;
+        postMessage({ id, result: await run(...args) });
+    } catch (error) {
+        postMessage({ id, error: (error as Error).message });
+    }
 });

@@ -52,7 +52,7 @@ export const TYPES: Type[] = [
     { name: "radial", label: "Radial", pictures: [], knobs: [{ ...knob("Grooves", "grooves", 0, 1, 1, 0), choices: ["rays", "circles"] }, ...CENTRE], spread: 6 },
     { name: "tiles", label: "Tiles", pictures: [], knobs: CELLS, spread: 8 },
     { name: "hexagons", label: "Hexagons", pictures: [], knobs: CELLS, spread: 8 },
-    { name: "cosmos", label: "Cosmos", pictures: [], knobs: [knob("Largest, mm", "size_mm", 2, 30, 0.5, 8)], spread: 8 },
+    { name: "cosmos", label: "Cosmos", pictures: [], knobs: [knob("Largest, mm", "size_mm", 2, 30, 0.5, 12)], spread: 8 },
     { name: "cracked_ice", label: "Cracked ice", pictures: [], knobs: [knob("Shards, mm", "size_mm", 1, 30, 0.5, 7)], spread: 8 },
     { name: "glitter", label: "Glitter", pictures: [], knobs: [knob("Grains, µm", "size_um", 60, 1000, 10, 120)], spread: 6 },
     {

@@ -47,21 +47,18 @@ Area card_area(const Recipe& recipe) {
             .width_mm = recipe.card.width_mm};
 }
 
-bool has_transparent_parts(const image::ByteImage& picture) {
-    for (std::size_t i = 3; i < picture.rgba.size(); i += 4)
-        if (picture.rgba[i] < 128) return true;
-    return false;
-}
+constexpr std::uint8_t kCovers = 128;  ///< the least alpha of ink that covers the foil
+constexpr std::uint8_t kOpaque = 255;
 
-bool is_transparent_anywhere(const image::ByteImage& picture) {
+bool has_alpha_below(std::uint8_t limit, const image::ByteImage& picture) {
     for (std::size_t i = 3; i < picture.rgba.size(); i += 4)
-        if (picture.rgba[i] < 255) return true;
+        if (picture.rgba[i] < limit) return true;
     return false;
 }
 
 FoilLayers layers_of(const Recipe& recipe, const image::ByteImage& artwork) {
     FoilLayers layers;
-    layers.ink = recipe.ink.value_or(has_transparent_parts(artwork) ? Ink::Covers : Ink::LetsThrough);
+    layers.ink = recipe.ink.value_or(has_alpha_below(kCovers, artwork) ? Ink::Covers : Ink::LetsThrough);
     layers.under = recipe.under.value_or(layers.ink == Ink::Covers ? Under::Metal : Under::Paper);
     layers.lacquer = recipe.lacquer;
     return layers;
@@ -119,7 +116,7 @@ class Composition {
     double foil(std::size_t texel) const { return fronts_.mask.empty() ? 1.0 : fronts_.mask[texel] / 255.0; }
 
     bool is_covered(std::size_t texel) const {
-        return layers_.ink == Ink::Covers && fronts_.artwork.rgba[4 * texel + 3] >= 128;
+        return layers_.ink == Ink::Covers && fronts_.artwork.rgba[4 * texel + 3] >= kCovers;
     }
     bool shows_foil(std::size_t texel) const { return !is_covered(texel) && foil(texel) >= 0.5; }
 
@@ -199,7 +196,7 @@ std::vector<Brightness> foil_pictures(const Recipe& recipe, const NamedPictures&
 /// Whether the file's own bytes do as the texture of a card.
 bool serves_as_it_is(const Recipe& recipe, const NamedPicture& named, const image::ByteImage& picture,
                      const Area& area) {
-    return !named.bytes.empty() && !is_transparent_anywhere(picture) &&
+    return !named.bytes.empty() && !has_alpha_below(kOpaque, picture) &&
            std::max(picture.width, picture.height) <= recipe.texture_px &&
            has_proportions({picture.width, picture.height}, area.width_px, area.height_px);
 }

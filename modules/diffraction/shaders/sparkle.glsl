@@ -48,7 +48,7 @@ vec4 find_sparkle(MeshView mesh) {
     float side = sqrt(max(facets, 1.0));
     float noise = min(sqrt(float(SPARKLE_PARTS)) * (1.0 / side - 1.0 / (3.0 * side * side)), 0.95);
     sparkle = Sparkle(facets < 0.02 ? 1 : SPARKLE_PARTS, facets < 4.0 ? 1.0 : noise, uvec2(0u), 0.0, 0.5);
-    vec4 seen = facet_moments(mesh, 0);
+    vec4 seen = vec4(0.0);
     float coverage = 0.0;
     for (int part = 0; part < sparkle.parts; ++part) {
         vec4 moments = facet_moments(mesh, part);
