@@ -55,14 +55,23 @@ async function builtInEfficiencies() {
     return JSON.stringify(samples);
 }
 
-const builtIn = { BUILT_IN_KEY_LIGHTS: await builtInKeyLights(), BUILT_IN_EFFICIENCIES: await builtInEfficiencies() };
+const { top } = await import(pathToFileURL(from + "/build/places.mjs"));
+
+/** Ranges and defaults of foil recipes, by type and key: of the schema that the foil library states. */
+async function foilSchema() {
+    const { BakeModule } = await import(pathToFileURL(from + "/dist/module.js"));
+    const module = await BakeModule.load(readFileSync(top + "build/web/bake/schema.wasm"));
+    const { properties: { foil, card } } = JSON.parse(String.fromCharCode(...module.numbers("foil_schema")));
+    return JSON.stringify({ foil: Object.fromEntries(foil.oneOf.map(({ properties }) => [properties.type.const, properties])), card: card.properties });
+}
+
+const builtIn = { FOIL_SCHEMA: await foilSchema(), BUILT_IN_KEY_LIGHTS: await builtInKeyLights(), BUILT_IN_EFFICIENCIES: await builtInEfficiencies() };
 buildSync({ ...options, entryPoints: [here + "page.ts"], define: builtIn, outfile: out + "/page.js" });
 buildSync({ ...options, entryPoints: [from + "/dist/worker.js"], outfile: out + "/worker.js" });
 for (const name of ["environment", "foil_worker"]) buildSync({ ...options, entryPoints: [`${here}${name}.ts`], outfile: `${out}/${name}.js` });
 for (const file of ["index.html", "page.css", "cabinet.glb", "cabinet.webp"]) cpSync(here + file, `${out}/${file}`);
 cpSync(here + "../../scenes/films.glb", `${out}/films.glb`);
 for (const file of readdirSync(from + "/dist").filter((name) => name.endsWith(".wasm"))) cpSync(`${from}/dist/${file}`, `${out}/${file}`);
-const { top } = await import(pathToFileURL(from + "/build/places.mjs"));
 cpSync(top + "build/web/bake/foil.wasm", out + "/foil.wasm"); // the package has no foil studio
 for (const file of ["draco_decoder.wasm", "draco_wasm_wrapper.js"])
     cpSync(`${from}/node_modules/three/examples/jsm/libs/draco/gltf/${file}`, `${out}/draco/${file}`);

@@ -1,6 +1,6 @@
 import { ARTWORK_NAMES, isBuiltIn, PAIR } from "./artworks.js";
 import { CARD_STEPS, FoilMaker } from "./foil_maker.js";
-import { checkedRecipe, COMMON, FIRST, picturesOf, TYPES, typeOf, valueOf, withType, withValue, type Knob, type Recipe } from "./recipe.js";
+import { checkedRecipe, CORNERS, FIRST, numberAt, picturesOf, positionOf, POSITIONS, TYPES, typeOf, valueOf, withoutPicture, withPicture, withType, withValue, type Knob, type Recipe } from "./recipe.js";
 import { FoilStudio } from "./studio.js";
 
 /** Texels along the card's longer side while a slider moves, and of the file. */
@@ -72,6 +72,7 @@ export class StudioPanel {
     private readonly types = make("div", { className: "tiles" });
     private readonly pictures = make("div");
     private readonly knobs = make("div");
+    private readonly removes = new Map<"mask" | "back", HTMLButtonElement>();
     private readonly said = make("output", { id: "studio-said" });
     private readonly withArt = make("input", { id: "with-art", type: "checkbox" });
     private readonly artLabel = make("label", { className: "wide" }, this.withArt, "");
@@ -150,37 +151,52 @@ export class StudioPanel {
     /** Takes a picture of the user's for a key of the recipe: "artwork", "mask", or one of the type's. */
     async take(file: File, key = "artwork"): Promise<void> {
         this.page.clear();
-        const name = await this.maker.take(file, file.name);
-        const own = key === "artwork" || key === "mask" || key === "back";
-        if (key === "back") this.edit({ ...this.recipe, card: { ...this.recipe.card, back: name } });
-        else if (own) this.edit({ ...this.recipe, [key]: name });
-        else this.edit({ ...this.recipe, foil: { ...this.recipe.foil, [key]: name } });
+        this.edit(withPicture(this.recipe, key, await this.maker.take(file, file.name)));
         this.build();
     }
 
-    private fileRow(label: string, key: string): HTMLLabelElement {
+    private fileRow(label: string, key: string): HTMLElement {
         const input = make("input", { id: "foil-" + key, type: "file", accept: "image/*" });
         input.addEventListener("change", () => {
             if (input.files?.[0]) this.take(input.files[0], key).catch(this.page.report);
+            input.value = ""; // the same file may be chosen again
         });
         return row(label, input);
     }
 
-    private slider(knob: Knob, knobs: Knob[]): HTMLLabelElement {
-        const change = (value: number, live: boolean) => this.edit(withValue(this.recipe, knob, value, knobs), live);
-        const value = valueOf(this.recipe, knob);
+    /** For a picture that a card can be without. */
+    private removableRow(label: string, key: "mask" | "back"): HTMLElement {
+        const remove = make("button", { id: "remove-" + key, type: "button", textContent: "×", title: `Remove the ${key}` });
+        remove.setAttribute("aria-label", remove.title);
+        remove.addEventListener("click", () => {
+            this.edit(withoutPicture(this.recipe, key));
+            this.build();
+            document.getElementById("foil-" + key)?.focus();
+        });
+        this.removes.set(key, remove);
+        return make("div", { className: "removable" }, this.fileRow(label, key), remove);
+    }
+
+    private slider(knob: Knob, value: number, change: (value: number, live: boolean) => void): HTMLLabelElement {
         if (knob.choices) {
             const select = make("select", { id: "foil-" + knob.key }, ...knob.choices.map((choice) => new Option(choice)));
             select.selectedIndex = value;
             select.addEventListener("change", () => change(select.selectedIndex, false));
             return row(knob.label, select);
         }
-        const input = make("input", { id: `foil-${knob.key}${knob.index ?? ""}`, type: "range", min: String(knob.from), max: String(knob.to), step: String(knob.step) });
-        input.value = String(value);
-        const output = make("output", { value: input.value });
+        const [min, max, step] = knob.logarithmic ? [0, POSITIONS, 1] : [knob.from, knob.to, knob.step];
+        const input = make("input", { id: `foil-${knob.key}${knob.index ?? ""}`, type: "range", min: String(min), max: String(max), step: String(step) });
+        input.value = String(knob.logarithmic ? positionOf(knob, value) : value);
+        const output = make("output");
+        const say = (number: number) => {
+            output.value = String(number);
+            input.setAttribute("aria-valuetext", output.value);
+        };
+        say(value);
         input.addEventListener("input", () => {
-            output.value = input.value;
-            change(Number(input.value), true);
+            const number = knob.logarithmic ? numberAt(knob, Number(input.value)) : Number(input.value);
+            say(number);
+            change(number, true);
         });
         return row(knob.label, input, output);
     }
@@ -200,10 +216,17 @@ export class StudioPanel {
         this.fillKnobs();
         if (this.root.childElementCount === 0) {
             this.root.append(
-                group("Artwork", this.artworks, this.fileRow("Your own", "artwork"), this.fileRow("Mask", "mask"), this.pictures),
+                group("Artwork", this.artworks, this.fileRow("Your own", "artwork"), this.removableRow("Mask", "mask"), this.pictures),
                 group("Foil", this.types, this.knobs), this.cardGroup(), this.shareGroup());
         }
+        this.showRemoves();
         if (focused) document.getElementById(focused)?.focus();
+    }
+
+    /** Buttons that remove a picture are there for one that there is. */
+    private showRemoves(): void {
+        const { mask, card } = this.recipe;
+        for (const [key, remove] of this.removes) remove.hidden = !(key === "mask" ? mask : card?.back);
     }
 
     private fillArtworks(): void {
@@ -214,10 +237,10 @@ export class StudioPanel {
             label.querySelector("input")!.id = "artwork-" + name;
             drawInto(label, this.maker.picture(name));
             label.addEventListener("change", () => {
-                // A mask is for one artwork.
-                const { mask, ...others } = this.recipe;
+                const { mask, ...others } = this.recipe; // which is for one artwork
                 const follows = others.foil.drawing === others.artwork;
                 this.edit({ ...others, artwork: name, foil: follows ? { ...others.foil, drawing: name } : others.foil });
+                this.showRemoves();
             });
             return label;
         }));
@@ -238,11 +261,10 @@ export class StudioPanel {
     }
 
     private fillKnobs(): void {
-        const type = typeOf(this.recipe);
-        const spread: Knob[] = type.spread ? [{ label: "Sparkle to calm", key: "spread_deg", from: 1, to: 30, step: 1, value: type.spread }] : [];
-        const common = type.name === "two_pictures" ? COMMON.slice(0, 1) : COMMON;
-        this.knobs.replaceChildren(...type.knobs.map((knob) => this.slider(knob, type.knobs)), ...[...common, ...spread].map((knob) => this.slider(knob, [])));
-        this.pictures.replaceChildren(...type.pictures.map(({ key, label }) => this.fileRow(label, key)));
+        const { knobs, pictures } = typeOf(this.recipe);
+        this.knobs.replaceChildren(...knobs.map((knob) => this.slider(knob, valueOf(this.recipe, knob), (value, live) =>
+            this.edit(withValue(this.recipe, knob, value, knobs), live))));
+        this.pictures.replaceChildren(...pictures.map(({ key, label }) => this.fileRow(label, key)));
     }
 
     private cardGroup(): HTMLElement {
@@ -259,14 +281,10 @@ export class StudioPanel {
         };
         gloss.addEventListener("change", coat);
         tint.addEventListener("input", coat);
-        const corners = make("input", { id: "foil-corners", type: "range", min: "0", max: "12", step: "0.5", value: String(card?.corner_mm ?? 3) });
-        const output = make("output", { value: corners.value });
-        corners.addEventListener("input", () => {
-            output.value = corners.value;
-            this.edit({ ...this.recipe, card: { ...this.recipe.card, corner_mm: Number(corners.value) } }, true);
-        });
+        const corners = this.slider(CORNERS, card?.corner_mm ?? CORNERS.value, (corner_mm, live) =>
+            this.edit({ ...this.recipe, card: { ...this.recipe.card, corner_mm } }, live));
         const side = this.choice("Side", "foil-side", [["front", "Front"], ["back", "Back"]], "front", (value) => this.studio.showSide(value === "back"));
-        return group("Card", side, this.fileRow("Back", "back"), row("Corners, mm", corners, output),
+        return group("Card", side, this.removableRow("Back", "back"), corners,
             this.choice("Ink", "foil-ink", [["", "As the artwork is"], ["covers", "Covers the foil"], ["lets_through", "Lets the foil through"]], ink, change("ink")),
             this.choice("Under it", "foil-under", [["", "As the ink is"], ["metal", "Metal"], ["paper", "Paper"]], under, change("under")),
             row("Glossy coat", gloss), row("Tint", tint), ...this.motion());

@@ -141,8 +141,12 @@ Foil read_foil(JsonReader json) {
     foil.groove_um = number_or(json, "groove_um", foil.groove_um, {.minimum = 0.6, .maximum = 10.0});
     if (json.has("spread_deg")) foil.spread_deg = json.number("spread_deg", {.minimum = 1.0, .maximum = 30.0});
     foil.seed = static_cast<std::uint32_t>(integer_or(json, "seed", foil.seed, 0, 0xFFFFFFFF));
-    json.variant("type", foil_type_names(),
-                 [&](JsonReader& member, std::size_t type) { foil.type = kTypes[type].read(member); });
+    json.variant("type", foil_type_names(), [&](JsonReader& member, std::size_t type) {
+        foil.type = kTypes[type].read(member);
+        if (!member.is_recording_schema()) return;
+        if (const FoilGrating own = foil_grating({.type = foil.type}); !own.varies_pitch)
+            state_default(member, "spread_deg", own.spread_deg);
+    });
     json.finish();
     if (!json.is_recording_schema() && foil.spread_deg && foil_grating(foil).varies_pitch)
         json.fail("spread_deg", "a width of the light along grooves whose distance varies",

@@ -183,6 +183,9 @@ uniform sampler2D groove_map_rest;  // what halves round off: ES filters no 16 b
 uniform vec4 groove_uv_linear;
 uniform vec2 groove_uv_offset;
 uniform float groove_pitch;  // the smallest, over the material's
+#ifdef GROOVE_SPARKLE
+uniform float facet_texels;  // mean area of a facet
+#endif
 in float groove_hand;
 
 vec4 mean_moments(vec2 uv) {
@@ -258,10 +261,10 @@ int groove_parts(GrooveView view) {
 #endif
 }
 
-// The moments of one of `parts` of the pixel.
+// The moments of one of `parts` of the pixel. At level 0 its point moves to the centre of a texel, as grooves interpolated
+// between two texels would be those of neither.
 #ifdef FINE_GROOVE_PARTS
-// At a point of a golden-ratio lattice. At level 0 it moves to the centre of its texel, as grooves interpolated between
-// two texels would be those of neither.
+// At a point of a golden-ratio lattice.
 vec4 part_moments(MeshView mesh, int parts, int part) {
     mat2 change = mesh.map_uv_change;
     vec2 at = vec2((float(part) + 0.5) / float(parts), fract(0.61803399 * float(part))) - 0.5;
@@ -278,7 +281,11 @@ vec4 part_moments(MeshView mesh, int parts, int part) {
     int bits = parts == 4 ? 1 : 2;  // of the part's column and of its row
     float side = parts == 4 ? 0.5 : 0.25;
     vec2 at = (vec2(part & ((1 << bits) - 1), part >> bits) + 0.5) * side - 0.5;
-    return mean_moments(mesh.map_uv + mesh.map_uv_change * at, mesh.map_uv_change * (0.5 * side));
+    vec2 uv = mesh.map_uv + mesh.map_uv_change * at;
+    mat2 width = mesh.map_uv_change * (0.5 * side);
+    vec2 texels = vec2(textureSize(groove_map, 0));
+    if (max(length(width[0] * texels), length(width[1] * texels)) <= 1.0) uv = (floor(uv * texels) + 0.5) / texels;
+    return mean_moments(uv, width);
 }
 #endif
 

@@ -1,8 +1,6 @@
 // Foil whose facets have random directions and are finer than a pixel (PHYSICS §11): takes the place of the parts in
 // grooves.glsl. The texture's levels hold one facet of the four below (runtime/groove_map.h).
 
-uniform float facet_texels;  // mean area of a facet
-
 const int SPARKLE_PARTS = 16;
 const float FEW_FACETS = 4.0;
 

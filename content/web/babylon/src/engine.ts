@@ -56,7 +56,7 @@ export class Texture {
     of(scene: BabylonScene): Drawn {
         if (this.drawn) return this.drawn;
         const { kind, levels, size: [width, height, depth] } = this;
-        const sampling = this.nearest ? Constants.TEXTURE_NEAREST_SAMPLINGMODE
+        const sampling = this.nearest ? levels.length > 1 ? Constants.TEXTURE_NEAREST_NEAREST_MIPNEAREST : Constants.TEXTURE_NEAREST_SAMPLINGMODE
             : levels.length > 1 ? Constants.TEXTURE_TRILINEAR_SAMPLINGMODE : Constants.TEXTURE_BILINEAR_SAMPLINGMODE;
         const type = levels[0] instanceof Float32Array ? Constants.TEXTURETYPE_FLOAT : Constants.TEXTURETYPE_HALF_FLOAT;
         const format = [Constants.TEXTUREFORMAT_RGBA, scene, levels.length > 1, false, sampling, type] as const;

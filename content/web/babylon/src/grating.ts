@@ -17,6 +17,8 @@ const only = (text: string) => onlyIf("defined(ROWLAND)", text);
 
 /** three's GLSL, which takes directions in its view, with Babylon's world for that. */
 const ofThree = (text: string) => definitions("#define SHOWN_LAYERS LAYERS\n#define viewMatrix mat4(1.0)\n" + text);
+/** For "#include GROOVE_SPARKLE", once a grating has asked for it. */
+let sparkle = "";
 const CODE: Record<string, Record<string, string>> = {
     vertex: {
         CUSTOM_VERTEX_DEFINITIONS: only(`#if defined(INSTANCES) && !defined(THIN_INSTANCES)
@@ -34,7 +36,6 @@ groove_normal = normalUpdated;
 pass_grooves(normal, across, mat3(finalWorld), vNormalW, int(${INSTANCE}));`),
     },
     fragment: {
-        CUSTOM_FRAGMENT_DEFINITIONS: only(ofThree(FRAGMENT)),
         CUSTOM_FRAGMENT_BEFORE_LIGHTS: only(`vec3 to_eye = vEyePosition.xyz - vPositionW;
 if (projection[2][3] == 0.0) { // orthographic
 to_eye = vec3(view[0].z, view[1].z, view[2].z);
@@ -91,7 +92,8 @@ export class GratingPlugin extends ValuesPlugin implements GratingOwner {
     }
 
     override getCustomCode(shader: string): Record<string, string> | null {
-        return CODE[shader] ?? null;
+        if (shader !== "fragment") return CODE[shader] ?? null;
+        return { CUSTOM_FRAGMENT_DEFINITIONS: only(ofThree(FRAGMENT.replace("#include GROOVE_SPARKLE", sparkle))), ...CODE.fragment };
     }
 
     protected get options(): ReadonlyMap<string, string> {
@@ -104,6 +106,10 @@ export class GratingPlugin extends ValuesPlugin implements GratingOwner {
     }
 
     contentChanged(): void {}
+
+    async loadSparkle(): Promise<void> {
+        ({ SPARKLE: sparkle } = await import("./shared/generated/sparkle.js"));
+    }
 
     layerChanged(colour: [number, number, number], roughness: number): void {
         Object.assign(this.material, { albedoColor: new Color3(...colour), metallic: 0, roughness });

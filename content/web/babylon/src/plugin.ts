@@ -8,7 +8,7 @@ import { Texture, type Vector4 } from "./engine.js";
 import { FILM_TABLE, FRAGMENT, VERTEX } from "./shared/generated/shaders.js";
 
 const OPTIONS = ["ROWLAND", "ROWLAND_PLANAR", "ROWLAND_ARC", "ROWLAND_DIFFRACTION_ONLY", "ROWLAND_MAXIMUM_KEY_LOBES", "ROWLAND_GROOVE_UV",
-    "KERNEL_VIEWS", "LOBE_GAUSSIAN", "LOBE_PITS", "COVER", "ZERO_ORDER", "LOBE_MAP", "HALF_TURN", "PITCH_AXIS", "GROOVE_GAPS", "GROOVES_EVEN",
+    "KERNEL_VIEWS", "LOBE_GAUSSIAN", "LOBE_PITS", "COVER", "ZERO_ORDER", "LOBE_MAP", "HALF_TURN", "PITCH_AXIS", "GROOVE_GAPS", "GROOVES_EVEN", "GROOVE_SPARKLE",
     "VIEW_MAPPING", "TABLE_COLUMNS", "TABLE_ROWS", "LAYERS", "ROWLAND_FILM", "FILM_LINE", "FILM_ROUGHNESSES", "FILM_PATHS"];
 const DEFINES = Object.fromEntries(OPTIONS.map((name) => [name, false]));
 
@@ -27,7 +27,7 @@ export const only = (condition: string, text: string): string => `# if ${conditi
 
 /** What @rowland/three's build leaves out of its GLSL. */
 export const definitions = (text: string): string =>
-    ["sampler2D", "sampler2DArray", "sampler3D"].map((type) => `precision highp ${type};\n`).join("") + text;
+    ["int", "sampler2D", "sampler2DArray", "sampler3D"].map((type) => `precision highp ${type};\n`).join("") + text;
 
 /** A plug-in whose GLSL reads @rowland/three's values. WebGL 2 alone. */
 export abstract class ValuesPlugin extends MaterialPluginBase {

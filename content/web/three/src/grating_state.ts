@@ -34,6 +34,8 @@ export interface GratingOwner {
     contentChanged(name: string): void;
     /** Programs are compiled again. Not called before the option ROWLAND is set. */
     optionsChanged(): void;
+    /** Loads what its programs need for the option GROOVE_SPARKLE, which few gratings have. */
+    loadSparkle?(): Promise<void>;
     /** The layer beneath the grooves, of a grating whose JSON has one. */
     layerChanged(colour: [number, number, number], roughness: number): void;
 }
@@ -147,6 +149,7 @@ export class GratingState {
     /** Sets the kernel, with the groove texture's moments for it. */
     private async take(tables: MaterialTables, image: GrooveImage | undefined, isCurrent: () => boolean): Promise<void> {
         const sparkle = (this.grating as { grooveTexture?: { sparkle?: boolean } }).grooveTexture?.sparkle ?? false;
+        if (image && sparkle) await this.owner.loadSparkle?.();
         const map = image && (await grooveMap(image, tables.facts[FACT.even] === 1, sparkle, this.rowland!));
         if (isCurrent()) this.setKernel(tables, map);
     }
@@ -248,6 +251,8 @@ export class GratingState {
         this.set("groove_uv_linear", map.image.uvLinear);
         this.set("groove_uv_offset", map.image.uvOffset);
         this.set("groove_pitch", map.smallest);
+        if (map.facetTexels) this.set("facet_texels", map.facetTexels);
+        this.flag("GROOVE_SPARKLE", map.facetTexels !== undefined);
         this.option("ROWLAND_GROOVE_UV", map.image.uv);
         this.flag("GROOVE_GAPS", map.gaps);
         this.flag("GROOVES_EVEN", even);

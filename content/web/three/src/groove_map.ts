@@ -6,8 +6,8 @@ export type Wrap = "clamp" | "repeat" | "mirror";
 
 /** A groove texture's texels: R is the rotation / π, G half the pitch over the material's; 0: no grating. */
 export interface GrooveImage {
-    /** RGBA, bytes or a Uint16Array, the row at v = 0 first. */
-    readonly bytes: ArrayLike<number>;
+    /** RGBA, bytes or 16 bits, the row at v = 0 first. */
+    readonly bytes: Uint8Array | Uint16Array;
     readonly width: number;
     readonly height: number;
     readonly wraps: readonly [u: Wrap, v: Wrap];
@@ -27,6 +27,8 @@ export interface GrooveMap {
     readonly largest: number;
     readonly gaps: boolean;
     readonly image: GrooveImage;
+    /** Mean area of a facet, of a texture that sparkles. */
+    readonly facetTexels?: number;
 }
 
 /** The column or row of an image after wrapping. */
@@ -49,11 +51,11 @@ export function rotationAt({ bytes, width, height, wraps, nearest, uvLinear: m, 
     return inRow(row) + (below - row) * (inRow(row + 1) - inRow(row));
 }
 
-/** `even`: whether the material's kernel is; `sparkle`: a pixel shows the grooves of one texel. */
+/** `even`: whether the material's kernel is; `sparkle`: pixels show some of the facets that they cover. */
 export async function grooveMap(image: GrooveImage, even: boolean, sparkle: boolean, rowland: Rowland): Promise<GrooveMap> {
     const { bytes, width, height } = image;
     const nearest = sparkle || image.nearest;
-    const { levels, ...found } = await rowland.grooveMoments(bytes, width, height, even, !nearest);
+    const { levels, ...found } = await rowland.grooveMoments(bytes, width, height, even, sparkle ? "facets" : nearest ? "one" : "means");
     const texture = (of: "moments" | "rest") =>
         mipmapTexture(levels.map(({ width, height, [of]: data }) => ({ width, height, data: data as Uint16Array<ArrayBuffer> })), nearest, image.wraps);
     return { ...found, image, moments: texture("moments"), rest: texture("rest") };

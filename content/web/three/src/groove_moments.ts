@@ -8,12 +8,17 @@ export interface MomentLevel {
     readonly rest: Uint16Array;
 }
 
+/** What a texture's levels below the first hold: there are none, or each holds means of the one above, or one facet of four. */
+export type GrooveLevels = "one" | "means" | "facets";
+
 /** The moments of a groove texture, and its smallest and largest pitch, over the material's. */
 export interface GrooveMoments {
     readonly smallest: number;
     readonly largest: number;
     readonly gaps: boolean;
     readonly levels: MomentLevel[];
+    /** Mean area of a facet, where levels hold facets. */
+    readonly facetTexels?: number;
 }
 
 interface Level {
@@ -84,4 +89,13 @@ export function grooveMoments(bytes: ArrayLike<number>, width: number, height: n
     const levels: Level[] = [{ width, height, data: momentsOf(bytes, even, gaps, smallest) }];
     for (let last = levels[0]; mipmaps && last.width * last.height > 1; levels.push(last)) last = halved(last);
     return { smallest, largest, gaps, levels: levels.map(halves) };
+}
+
+/** From the numbers of facet_levels(), content/web/bake/sparkle.cpp. */
+export function facetsOf(numbers: Float32Array, width: number, height: number): GrooveMoments {
+    const [smallest, largest, gaps, facetTexels] = numbers;
+    const levels: MomentLevel[] = [];
+    for (let at = 4; at < numbers.length; width = Math.max(1, width >> 1), height = Math.max(1, height >> 1))
+        levels.push(halves({ width, height, data: numbers.subarray(at, (at += 4 * width * height)) }));
+    return { smallest, largest, gaps: gaps === 1, levels, facetTexels };
 }

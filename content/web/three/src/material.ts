@@ -9,6 +9,9 @@ import { withGrating, type GratingParameters } from "./with_grating.js";
 const UNIFORMS = [...(VERTEX + FRAGMENT).matchAll(/\buniform \w+ (\w+)|\bSTORAGE\(\d+,\w+,\w+,(\w+)\)/g)]
     .map(([, plain, stored]) => plain ?? stored);
 
+/** For "#include GROOVE_SPARKLE", once a grating has asked for it. */
+let sparkle = "";
+
 type Hooks = Pick<MeshPhysicalMaterial, "onBeforeCompile" | "onBeforeRender" | "customProgramCacheKey">;
 
 /**
@@ -56,6 +59,11 @@ export class GratingMaterial extends withGrating(MeshPhysicalMaterial) {
         if (options.has("ROWLAND")) Object.assign(defines, Object.fromEntries(options));
         this.applied = options.has("ROWLAND") ? [...options.keys()] : [];
         this.needsUpdate = true;
+    }
+
+    /** @internal */
+    async loadSparkle(): Promise<void> {
+        ({ SPARKLE: sparkle } = await import("./generated/sparkle.js"));
     }
 
     private render(renderer: WebGLRenderer, scene: Scene, geometry: BufferGeometry, object: Object3D): void {
@@ -110,7 +118,7 @@ groove_linear *= mat3(skinMatrix);
 #endif
 pass_grooves(normal, tangent, groove_linear, transformedNormal, groove_instance);`));
         let fragment = shader.fragmentShader;
-        fragment = put(fragment, "lights_physical_pars_fragment", "", only(shownLayers + FRAGMENT));
+        fragment = put(fragment, "lights_physical_pars_fragment", "", only(shownLayers + FRAGMENT.replace("#include GROOVE_SPARKLE", sparkle)));
         fragment = put(fragment, "lights_fragment_begin", only(`vec3 groove_side =
 #ifdef FLAT_SHADED
 faceDirection * nonPerturbedNormal;

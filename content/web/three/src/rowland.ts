@@ -1,6 +1,6 @@
 import type { GrooveMoments } from "./groove_moments.js";
 import { TaskWorker } from "./task_worker.js";
-import type { ArcTables, Detail, FilmSource, FilmTable, MaterialTables, Pitches, PlaneMap, Source } from "./tasks.js";
+import type { ArcTables, Detail, FilmSource, FilmTable, MaterialTables, Pitches, PlaneMap, Source, Tasks } from "./tasks.js";
 
 /** An equirectangular picture: RGB, linear Rec.709, row 0 at the top. */
 export interface Panorama {
@@ -156,8 +156,8 @@ export class Rowland {
     }
 
     /** @internal */
-    grooveMoments(bytes: ArrayLike<number>, width: number, height: number, even: boolean, mipmaps: boolean): Promise<GrooveMoments> {
-        return this.worker("tables").run("grooveMoments", [bytes, width, height, even, mipmaps]);
+    grooveMoments(...of: Parameters<Tasks["grooveMoments"]>): Promise<GrooveMoments> {
+        return this.worker("tables").run("grooveMoments", of);
     }
 
     /** @internal */

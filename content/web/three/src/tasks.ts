@@ -1,6 +1,6 @@
 /** What the worker computes, and the tables that it returns. */
 
-import { grooveMoments, type GrooveMoments } from "./groove_moments.js";
+import { facetsOf, grooveMoments, type GrooveLevels, type GrooveMoments } from "./groove_moments.js";
 import { packRgb, toHalf, type Halves } from "./half.js";
 import { BakeModule } from "./module.js";
 
@@ -81,7 +81,7 @@ function table(width: number, height: number, depth: number, rgb: Float32Array):
     return { width, height, depth, ...packRgb(rgb) };
 }
 
-type ModuleName = "bake" | "keys" | "arc" | "reference" | "solve" | "film";
+type ModuleName = "bake" | "keys" | "arc" | "reference" | "solve" | "film" | "sparkle";
 export type Fetch = (name: ModuleName) => Promise<BufferSource>;
 
 /** The tasks of one worker. Materials, by number, and one probe are kept in the modules' memory. */
@@ -248,8 +248,11 @@ export class Tasks {
         return products;
     }
 
-    async grooveMoments(bytes: ArrayLike<number>, width: number, height: number, even: boolean, mipmaps: boolean): Promise<GrooveMoments> {
-        return grooveMoments(bytes, width, height, even, mipmaps);
+    async grooveMoments(texels: Uint8Array | Uint16Array, width: number, height: number, even: boolean, levels: GrooveLevels): Promise<GrooveMoments> {
+        if (levels !== "facets") return grooveMoments(texels, width, height, even, levels === "means");
+        const module = await this.module("sparkle");
+        const address = module.put(new Uint8Array(texels.buffer, texels.byteOffset, texels.byteLength));
+        return facetsOf(module.numbers("facet_levels", address, width, height, texels.BYTES_PER_ELEMENT, Number(even)), width, height);
     }
 
     async film({ json, thinnest_nm, smoothest, base }: FilmSource): Promise<FilmTable> {

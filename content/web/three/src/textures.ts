@@ -1,6 +1,6 @@
 import {
     ClampToEdgeWrapping, Data3DTexture, DataArrayTexture, DataTexture, FloatType, HalfFloatType, LinearFilter, LinearMipmapLinearFilter,
-    MirroredRepeatWrapping, NearestFilter, RepeatWrapping, RGBAFormat, Vector2, Vector4, type BufferGeometry, type Texture,
+    MirroredRepeatWrapping, NearestFilter, NearestMipmapNearestFilter, RepeatWrapping, RGBAFormat, Vector2, Vector4, type BufferGeometry, type Texture,
 } from "three";
 import type { GrooveImage, Wrap } from "./groove_map.js";
 import type { Table } from "./tasks.js";
@@ -44,13 +44,13 @@ export function mipmapTexture(levels: { width: number; height: number; data: Uin
     if (levels.length > 1) texture.mipmaps = levels as never;
     [texture.wrapS, texture.wrapT] = wraps.map((wrap) => WRAPPINGS[wrap]);
     texture.magFilter = nearest ? NearestFilter : LinearFilter;
-    texture.minFilter = nearest ? NearestFilter : LinearMipmapLinearFilter;
+    texture.minFilter = nearest ? NearestMipmapNearestFilter : LinearMipmapLinearFilter;
     return texture;
 }
 
-/** RGBA, bytes or a Uint16Array, the row at v = 0 first. */
-function bytesOf(texture: Texture): ArrayLike<number> {
-    const image = texture.image as { data?: ArrayLike<number>; width: number; height: number };
+/** RGBA, bytes or 16 bits, the row at v = 0 first. */
+function bytesOf(texture: Texture): Uint8Array | Uint16Array {
+    const image = texture.image as { data?: Uint8Array | Uint16Array | Uint8ClampedArray; width: number; height: number };
     const { width, height } = image;
     let { data } = image;
     if (!data) {
@@ -59,7 +59,7 @@ function bytesOf(texture: Texture): ArrayLike<number> {
         data = context.getImageData(0, 0, width, height).data;
     }
     if (data.length !== 4 * width * height) throw new Error("grooveTexture: expected a texture of RGBA bytes");
-    if (!texture.flipY) return data;
+    if (!texture.flipY) return data as Uint8Array;
     const flipped = (data as Uint8Array).slice();
     for (let row = 0; row < height; ++row)
         for (let i = 0; i < 4 * width; ++i) flipped[4 * width * row + i] = data[4 * width * (height - 1 - row) + i];

@@ -10,6 +10,7 @@ const FILES = {
     reference: new URL("./reference.wasm", import.meta.url),
     solve: new URL("./solve.wasm", import.meta.url),
     film: new URL("./film.wasm", import.meta.url),
+    sparkle: new URL("./sparkle.wasm", import.meta.url),
 };
 
 const tasks = new Tasks(async (name) => {

@@ -13,30 +13,33 @@ const missing = !chromium() ? "needs Chromium" : existsSync(join(site, "foil.was
 const cook = process.env.ROWLAND_COOK ?? top + "build/release/bin/rowland-cook";
 const validator = packageFolder + "../gltf-transform/node_modules/gltf-validator/index.js";
 
+async function opened(address, size) {
+    const folder = mkdtempSync(join(tmpdir(), "rowland-foil-"));
+    try {
+        const page = join(folder, "index.html");
+        const { text, files } = withDrivers(readFileSync(join(site, "index.html"), "utf8"), "picture_driver.js", "foil_driver.js", "page_driver.js");
+        writeFileSync(page, text);
+        files["/index.html"] = page;
+        files["/axe.js"] = packageFolder + "node_modules/axe-core/axe.min.js";
+        const result = await resultOf("index.html?" + address, {}, { folder: site, files, seconds: 580, size, flags: ["--force-prefers-reduced-motion"] });
+        assert.deepEqual(result.errors, []);
+        if (process.env.PICTURES)
+            for (const [name, { url }] of Object.entries(result.pictures))
+                writeFileSync(join(process.env.PICTURES, `foil_${name}.png`), Buffer.from(url.split(",")[1], "base64"));
+        return result;
+    } finally {
+        rmSync(folder, { recursive: true });
+    }
+}
+
 let visited;
 function visit() {
-    return (visited ??= (async () => {
-        const folder = mkdtempSync(join(tmpdir(), "rowland-foil-"));
-        try {
-            const page = join(folder, "index.html");
-            const { text, files } = withDrivers(readFileSync(join(site, "index.html"), "utf8"), "picture_driver.js", "foil_driver.js", "page_driver.js");
-            writeFileSync(page, text);
-            files["/index.html"] = page;
-            files["/axe.js"] = packageFolder + "node_modules/axe-core/axe.min.js";
-            const result = await resultOf("index.html?foil&phone#scene=foil", {}, { folder: site, files, seconds: 580, size: "390,844", flags: ["--force-prefers-reduced-motion"] });
-            assert.deepEqual(result.errors, []);
-            if (process.env.PICTURES)
-                for (const [name, { url }] of Object.entries(result.pictures))
-                    writeFileSync(join(process.env.PICTURES, `foil_${name}.png`), Buffer.from(url.split(",")[1], "base64"));
-            return { ...result, glb: Buffer.from(result.glb, "base64"), art: Buffer.from(result.art, "base64") };
-        } finally {
-            rmSync(folder, { recursive: true });
-        }
-    })());
+    return (visited ??= opened("foil&phone#scene=foil", "390,844").then((result) =>
+        ({ ...result, glb: Buffer.from(result.glb, "base64"), art: Buffer.from(result.art, "base64") })));
 }
 
 /** The JSON of a binary glTF, and the texels of its groove texture. */
-async function opened(glb) {
+async function cardOf(glb) {
     const { decodePng16 } = await import("../dist/png16.js");
     const size = glb.readUInt32LE(12);
     const json = JSON.parse(glb.subarray(20, 20 + size));
@@ -71,7 +74,7 @@ test("the file is valid, and its grooves are those of rowland-cook", { skip: mis
         writeFileSync(join(folder, "mine.png"), art);
         writeFileSync(join(folder, "card.json"), JSON.stringify({ ...recipe, artwork: "mine.png" }));
         execFileSync(cook, ["foil", join(folder, "card.json"), "-o", join(folder, "card.glb")]);
-        const [page, cooked] = [await opened(glb), await opened(readFileSync(join(folder, "card.glb")))];
+        const [page, cooked] = [await cardOf(glb), await cardOf(readFileSync(join(folder, "card.glb")))];
         assert.deepEqual(page.grating, cooked.grating);
         assert.deepEqual([page.json.nodes, page.json.accessors, page.json.textures], [cooked.json.nodes, cooked.json.accessors, cooked.json.textures]);
         assert.deepEqual([page.grooves.width, page.grooves.height], [1466, 2048]);
@@ -93,6 +96,17 @@ test("the link holds the recipe, and the visitor's artwork only after a tick", {
     assert.equal(plain.get("art"), null);
     assert.notEqual(JSON.parse(full.get("foil")).artwork, "Moon");
     assert.equal(Buffer.from(full.get("art"), "base64").toString("latin1", 8, 12), "WEBP");
+});
+
+test("a link opens with the artwork that is in it, and a mask can be removed", { skip: missing }, async (t) => {
+    const { linkWithArt } = await visit();
+    const { opened: shown, link, shown: removable, focused, changed } = await opened("link" + new URL(linkWithArt).hash, "640,480");
+    assert.deepEqual(shown, { artwork: "artwork of the link", label: "Yours", type: "hexagons", withArt: true, said: "" });
+    assert.equal(new URL(link).hash, new URL(linkWithArt).hash);
+    assert.deepEqual(removable, [false, true, false]);
+    assert.equal(focused, "foil-mask");
+    t.diagnostic(JSON.stringify(changed));
+    assert.ok(changed.by > 0.01 && changed.back < 0.1 * changed.by, JSON.stringify(changed));
 });
 
 test("on a phone the studio's controls are 44 pixels high, nothing scrolls sideways, and axe-core finds nothing serious", { skip: missing }, async () => {

@@ -49,6 +49,46 @@ async function copiedLink() {
     return copied;
 }
 
+/** Foil in the lower half alone. */
+async function mask() {
+    const canvas = new OffscreenCanvas(63, 88);
+    const context = canvas.getContext("2d");
+    context.fillRect(0, 0, 63, 88);
+    context.fillStyle = "white";
+    context.fillRect(0, 44, 63, 44);
+    return new File([await canvas.convertToBlob({ type: "image/png" })], "mask.png", { type: "image/png" });
+}
+
+/** A visit by a link with an artwork in it, whose foil gets a mask and loses it. */
+async function foilLinkVisit(pictures) {
+    await until("the first card", () => studio()?.dataset.busy === "false");
+    await until("the thumbnails", () => studio().dataset.thumbnails === "true");
+    await settled();
+    const chosen = document.querySelector("#studio input[name=artwork]:checked");
+    const opened = { artwork: chosen.value, label: chosen.parentElement.textContent, type: document.querySelector("#studio input[name=foil]:checked").value,
+        withArt: document.getElementById("with-art").checked, said: said() };
+    pictures.opened = await picture();
+    const link = await copiedLink();
+
+    const remove = document.getElementById("remove-mask");
+    const shown = [getComputedStyle(remove).display !== "none"];
+    const files = new DataTransfer();
+    files.items.add(await mask());
+    const input = document.getElementById("foil-mask");
+    input.files = files.files;
+    input.dispatchEvent(new Event("change"));
+    await until("the button that removes the mask", () => !remove.hidden);
+    await made();
+    pictures.masked = await picture();
+    shown.push(getComputedStyle(remove).display !== "none");
+    remove.click();
+    await made();
+    pictures.unmasked = await picture();
+    shown.push(getComputedStyle(remove).display !== "none");
+    return { opened, link, shown, focused: document.activeElement.id,
+        changed: { by: changedPart(pictures.opened, pictures.masked), back: changedPart(pictures.opened, pictures.unmasked) } };
+}
+
 async function foilVisit(pictures) {
     const times = {};
     const mark = (name) => (times[name] = Math.round(performance.now() / 1000));

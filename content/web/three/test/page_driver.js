@@ -235,6 +235,7 @@ async function visit() {
         return post({ ...result, said: said(), alt: image.alt, size: [image.naturalWidth, image.naturalHeight], errors: [] });
     }
     if (limits.has("phone")) await holdPhone(limits.has("foil") ? 0.5 : 1);
+    if (limits.has("link")) return post({ ...result, ...(await foilLinkVisit(result.pictures)) });
     if (limits.has("foil")) return post({ ...result, ...(await foilVisit(result.pictures)) });
     // Every flat sample; the ball's table takes seconds.
     await until("the first light", () => Number(document.documentElement.dataset.lit) >= 4);

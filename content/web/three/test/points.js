@@ -48,7 +48,7 @@ function grooveTexture(texels) {
 }
 
 /** Red, green and blue of each pixel, from the left below, of a picture that may be upside down. */
-async function pixelsOf(renderer, target, flipped = false) {
+export async function pixelsOf(renderer, target, flipped = false) {
     const { width, height } = target;
     let pixels = new Float32Array(4 * width * height);
     if (renderer.isWebGLRenderer) renderer.readRenderTargetPixels(target, 0, 0, width, height, pixels);

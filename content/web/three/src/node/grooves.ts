@@ -1,8 +1,9 @@
 // modules/diffraction/shaders/grooves.glsl in TSL, for materials that reflect.
 import {
-    abs, cross, dFdx, dFdy, dot, float, If, int, inverseSqrt, length, max, min, normalize, select, sqrt, vec2, vec3,
+    abs, cross, dFdx, dFdy, dot, float, floor, If, int, inverseSqrt, length, max, min, normalize, select, sqrt, vec2, vec3,
 } from "three/tsl";
 import type { Float, Int, Mat3, Program, Vec2, Vec3, Vec4 } from "./program.js";
+import { sparkle_of, type Sparkle } from "./sparkle.js";
 
 /** u = s_g + v_g over a pixel: PHYSICS (11.1). */
 export interface PixelU {
@@ -44,6 +45,7 @@ export interface GrooveMapView {
     spread: Vec2; // factors of u_h^2 and u_g^2 in the variance of u
     coverage: Float; // fraction of the area that has a grating
     moments: Vec4;
+    sparkle?: Sparkle;
 }
 
 /** s + v along g and h of the mesh, and its differences to the pixels beside and below. */
@@ -148,6 +150,8 @@ export function grooves(program: Program, inputs: GrooveInputs) {
         return [g, cross(n, g).toVar(), n];
     }
 
+    const sparkling = program.has("GROOVE_SPARKLE") ? sparkle_of(program) : undefined;
+
     // Halves are filtered, and a second texture has what they round off: runtime/groove_map.h.
     function mean_moments(uv: Vec2, width?: Change<Vec2>): Vec4 {
         const read = (name: string) => program.textureGrad(name, uv, width ?? changeOf(uv));
@@ -199,7 +203,8 @@ export function grooves(program: Program, inputs: GrooveInputs) {
     const VARYING = 1e-3;
     const VARYING_MUCH = 1e-2;
 
-    function groove_parts({ spread }: GrooveMapView): Int {
+    function groove_parts({ spread, sparkle }: GrooveMapView): Int {
+        if (sparkle) return sparkle.parts;
         const variation = spread.x.add(spread.y).toVar();
         const few = select(variation.greaterThan(VARYING), int(4), int(1));
         return select(variation.greaterThan(VARYING_MUCH), int(16), few) as Int;
@@ -207,7 +212,8 @@ export function grooves(program: Program, inputs: GrooveInputs) {
 
     /**
      * The moments of one of `parts` of the pixel. Asks for half the part's width: a trilinear look-up averages over about
-     * twice the width that it is asked for.
+     * twice the width that it is asked for. At level 0 its point moves to the centre of a texel, as grooves interpolated
+     * between two texels would be those of neither.
      */
     function part_moments(mesh: MeshView, parts: Int, part: Int): Vec4 {
         const bits = select(parts.equal(4), int(1), int(2)).toVar() as Int; // of the part's column and of its row
@@ -217,17 +223,27 @@ export function grooves(program: Program, inputs: GrooveInputs) {
         const [across, down] = mesh.map_uv_change;
         const half = side.mul(0.5).toVar();
         const uv = mesh.map_uv.add(across.mul(at.x)).add(down.mul(at.y)).toVar();
-        return mean_moments(uv, [across.mul(half), down.mul(half)]);
+        const width = [across.mul(half).toVar(), down.mul(half).toVar()] as const;
+        const texels = program.size("groove_map");
+        If(max(length(width[0].mul(texels)), length(width[1].mul(texels))).lessThanEqual(1), () => {
+            uv.assign(floor(uv.mul(texels)).add(0.5).div(texels));
+        });
+        return mean_moments(uv, width);
     }
 
     /** One of `parts`; `view`: the whole pixel. */
     function groove_part(view: GrooveView, parts: Int, part: Int): GrooveView {
-        const { mesh } = view.map!;
+        const { mesh, sparkle } = view.map!;
         const moments = view.map!.moments.toVar();
+        const weight = float(1).toVar();
         If(parts.greaterThan(1), () => {
-            moments.assign(part_moments(mesh, parts, part));
+            if (!sparkle) return void moments.assign(part_moments(mesh, parts, part));
+            const facet = sparkling!.sparkle_part(mesh, sparkle, part);
+            moments.assign(facet.moments);
+            weight.assign(facet.weight);
         });
-        return grooves_of(mesh, view.g_change, view.v_g_change, moments);
+        const one = grooves_of(mesh, view.g_change, view.v_g_change, moments);
+        return sparkle ? { ...one, map: { ...one.map!, coverage: one.map!.coverage.mul(weight).toVar() } } : one;
     }
 
     /** Uses derivatives: call it in uniform control flow. */
@@ -248,7 +264,10 @@ export function grooves(program: Program, inputs: GrooveInputs) {
             map_uv: uv,
             map_uv_change: changeOf<Vec2>(uv),
         };
-        return grooves_of(mesh, g_change, v_g_change, mean_moments(uv, mesh.map_uv_change).toVar());
+        if (!sparkling) return grooves_of(mesh, g_change, v_g_change, mean_moments(uv, mesh.map_uv_change).toVar());
+        const { sparkle, moments } = sparkling.find_sparkle(mesh);
+        const view = grooves_of(mesh, g_change, v_g_change, moments);
+        return { ...view, map: { ...view.map!, sparkle } };
     }
 
     return { cover_transmittance, to_tangent, turned_pixel_u, pixel_u, mesh_u_of, pixel_u_of, groove_parts, groove_part, groove_view };

@@ -1,10 +1,11 @@
 import type { Data3DTexture, DataArrayTexture, Matrix3, Texture, Vector2, Vector3, Vector4 } from "three";
-import { float, int, ivec2, Loop, texture, texture3D, uniform, uniformArray } from "three/tsl";
+import { float, int, ivec2, Loop, texture, texture3D, textureSize, uniform, uniformArray, vec2 } from "three/tsl";
 import type { GratingState } from "../grating_state.js";
 import type { Node, TextureNode, UniformNode } from "three/webgpu";
 
 export type Float = Node<"float">;
 export type Int = Node<"int">;
+export type Uint = Node<"uint">;
 export type Bool = Node<"bool">;
 export type Vec2 = Node<"vec2">;
 export type Vec3 = Node<"vec3">;
@@ -80,9 +81,13 @@ export class Program {
         return this.node(name, (value) =>
             (kindOf(value) === "volume" ? texture3D(value) : texture(value)).setName(name) as never);
     }
-    /** textureLod() at level 0 of sampler2D and, with three coordinates, of sampler3D. */
-    textureLod(name: string, uv: Vec2 | Vec3): Vec4 {
-        return this.texture(name).sample(uv).level(float(0));
+    /** textureLod() of sampler2D and, with three coordinates, of sampler3D. */
+    textureLod(name: string, uv: Vec2 | Vec3, level: Float = float(0)): Vec4 {
+        return this.texture(name).sample(uv).level(level);
+    }
+    /** Width and height in texels. */
+    size(name: string): Vec2 {
+        return vec2(textureSize(this.texture(name), int(0)) as never);
     }
     /** textureLod() at level 0 of sampler2DArray. */
     textureLayer(name: string, uv: Vec2, layer: number): Vec4 {

@@ -1,0 +1,102 @@
+// Posts pictures of foil that sparkles, and of foil of one direction, by each of the renderers.
+import * as THREE from "three";
+import { WebGPURenderer } from "three/webgpu";
+import { GratingMaterial, Rowland } from "../dist/index.js";
+import { GratingNodeMaterial } from "../dist/webgpu.js";
+import { pixelsOf } from "./points.js";
+
+const post = (value) => fetch("/result", { method: "POST", body: JSON.stringify(value) });
+
+function grooveTexture({ width, height, texels }) {
+    const rgba = new Uint16Array(4 * width * height);
+    for (let i = 0; i < width * height; ++i) rgba.set([texels[2 * i], texels[2 * i + 1], 0, 65535], 4 * i);
+    const texture = new THREE.DataTexture(rgba, width, height, THREE.RGBAFormat, THREE.UnsignedShortType);
+    texture.wrapS = texture.wrapT = THREE.RepeatWrapping;
+    texture.magFilter = THREE.LinearFilter;
+    return texture;
+}
+
+/** A blob of light before a dim ground. */
+function probe() {
+    const [width, height] = [64, 32];
+    const texels = new Float32Array(3 * width * height);
+    for (let i = 0; i < width * height; ++i) {
+        const [azimuth, up] = [(2 * Math.PI * ((i % width) + 0.5)) / width, (Math.PI * (Math.floor(i / width) + 0.5)) / height];
+        const [x, y, z] = [-Math.cos(azimuth) * Math.sin(up), Math.cos(up), -Math.sin(azimuth) * Math.sin(up)];
+        const blob = Math.exp(80 * (0.3 * x + 0.45 * y + 0.84 * z - 1));
+        texels.set([0.1 + 3 * blob, 0.1 + 2.5 * blob, 0.15 + 2 * blob], 3 * i);
+    }
+    return { texels, width, height };
+}
+
+/** A square of foil, each of whose pixels covers `change` of the texture. */
+async function drawn({ renderer, Material }, rowland, { grating, representation, lamp }, { change, pixels }, corner, texture, sparkle) {
+    const material = new Material({
+        rowland, grating: { grating, cover: undefined, grooveTexture: { index: 0, sparkle } }, representation, grooveTexture: texture, specularIntensity: 0,
+    });
+    material.diffractionOnly = true;
+    const square = new THREE.PlaneGeometry(2, 2);
+    const uv = square.getAttribute("uv");
+    for (let i = 0; i < uv.count; ++i)
+        uv.setXY(i, corner[0] + pixels * change[0] * uv.getX(i), corner[1] + pixels * change[1] * uv.getY(i));
+    square.setAttribute("tangent", new THREE.Float32BufferAttribute([1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1], 4));
+    const scene = new THREE.Scene();
+    if (lamp) {
+        const light = new THREE.DirectionalLight(0xffffff, lamp.flux);
+        light.position.set(...lamp.direction);
+        scene.add(light);
+    }
+    scene.add(new THREE.Mesh(square, material));
+    const camera = new THREE.OrthographicCamera(-1, 1, 1, -1, 1, 3).translateZ(2);
+    const target = new THREE.WebGLRenderTarget(pixels, pixels, { type: THREE.FloatType });
+    await material.ready;
+    for (let i = 0; i < 3; ++i) {
+        renderer.setRenderTarget(target);
+        renderer.render(scene, camera);
+        await material.settled;
+    }
+    const picture = await pixelsOf(renderer, target);
+    material.dispose();
+    return picture;
+}
+
+async function renderersOf() {
+    const all = { "WebGLRenderer": { renderer: new THREE.WebGLRenderer(), Material: GratingMaterial } };
+    for (const forceWebGL of [true, false]) {
+        if (!forceWebGL && !(await navigator.gpu?.requestAdapter())) continue;
+        const renderer = new WebGPURenderer({ forceWebGL });
+        await renderer.init();
+        all[`WebGPURenderer on ${forceWebGL ? "WebGL 2" : "WebGPU"}`] = { renderer, Material: GratingNodeMaterial };
+    }
+    return all;
+}
+
+const errors = []; // of shaders, which three logs
+for (const kind of ["error", "warn"]) console[kind] = (...words) => errors.push(words.join(" "));
+try {
+    const { cases, edge, corner } = await (await fetch("/task")).json();
+    const rowland = new Rowland();
+    rowland.onError = (error) => post({ error: error.message });
+    await rowland.setProbe(probe(), { keyLights: 0 });
+    const drawing = await renderersOf();
+    const results = [];
+    for (const one of cases) {
+        const shown = [];
+        for (const red of one.reds)
+            shown.push((await drawn(drawing.WebGLRenderer, rowland, one, { change: [1, 1], pixels: 1 }, corner,
+                grooveTexture({ width: 1, height: 1, texels: [red, one.green] }), false))[0]);
+        const texture = grooveTexture(one.texture);
+        const pictures = {};
+        for (const [name, by] of Object.entries(drawing)) {
+            pictures[name] = [];
+            for (const distance of one.distances) pictures[name].push(await drawn(by, rowland, one, distance, corner, texture, true));
+        }
+        results.push({ shown, pictures });
+    }
+    const edges = {};
+    for (const [name, by] of Object.entries(drawing)) edges[name] = await drawn(by, rowland, edge, edge.distance, [0, 0], grooveTexture(edge.texture), false);
+    const loaded = performance.getEntriesByType("resource").map(({ name }) => new URL(name).pathname);
+    await post({ results, edges, errors, loaded });
+} catch (error) {
+    await post({ error: error.message + "\n" + error.stack, errors });
+}
