@@ -47,7 +47,7 @@ constexpr std::array kControls = {
     Control{"/foil/size_um", "Flake size", "µm", FieldKind::Number, "Width of a sparkling flake."},
     Control{"/foil/directions", "Directions", "", FieldKind::Count, "How many directions of grooves the pieces have."},
     Control{"/foil/band_mm", "Band width", "mm", FieldKind::Number, "Width of a vertical band."},
-    Control{"/foil/pitch_range", "Rainbow per band", "×", FieldKind::Number,
+    Control{"/foil/pitch_range", "Colour range", "×", FieldKind::Number,
             "Largest distance of grooves in a band over the smallest: how much of the rainbow it holds."},
     Control{"/foil/grooves", "Grooves", "", FieldKind::Choice, "Rays make a sunburst, circles the fans of a disc."},
     Control{"/foil/centre", "Centre", "", FieldKind::Pair,
