@@ -284,7 +284,8 @@ vec4 part_moments(MeshView mesh, int parts, int part) {
     vec2 uv = mesh.map_uv + mesh.map_uv_change * at;
     mat2 width = mesh.map_uv_change * (0.5 * side);
     vec2 texels = vec2(textureSize(groove_map, 0));
-    if (max(length(width[0] * texels), length(width[1] * texels)) <= 1.0) uv = (floor(uv * texels) + 0.5) / texels;
+    vec2 squares = vec2(dot(width[0] * texels, width[0] * texels), dot(width[1] * texels, width[1] * texels));
+    if (max(squares.x, squares.y) <= 1.0) uv = (floor(uv * texels) + 0.5) / texels;
     return mean_moments(uv, width);
 }
 #endif
