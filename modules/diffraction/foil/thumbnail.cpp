@@ -124,7 +124,7 @@ Thumbnail::Thumbnail(Recipe recipe, NamedPictures pictures, const std::string& f
 
 void Thumbnail::draw(const glm::mat3& tilt, std::span<std::uint8_t> rgba) const {
     ROWLAND_CHECK(rgba.size() == std::size_t{4} * static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_),
-                  "four bytes a pixel");
+                  "four bytes per pixel");
     std::array<Path, kLamps.size()> paths;
     for (std::size_t i = 0; i < paths.size(); ++i) paths[i] = path_of(kLamps[i], tilt);
     const std::vector<glm::vec3>& colours = colours_of_paths();

@@ -13,10 +13,10 @@
 namespace rowland::diffraction::foil {
 
 /// A small picture of a card that can be tilted, for choosing among foils: print and grooves under four lamps by the
-/// grating equation alone, without efficiencies, shadows or the room. A frame takes about 40 ns a texel.
+/// grating equation alone, without efficiencies, shadows or the room. A frame takes about 40 ns per texel.
 class Thumbnail {
  public:
-    /// A picture of `height` pixels, of a card with two texels a pixel. Throws Error (input) as make_card() does.
+    /// A picture of `height` pixels, of a card with four texels per pixel. Throws Error (input) as make_card() does.
     Thumbnail(Recipe recipe, NamedPictures pictures, const std::string& file, int height);
 
     int width() const { return width_; }
