@@ -23,6 +23,7 @@ class FoilSession : public SmallSession {
     }
     FoilStudio& foil() { return *session_.foil; }
     void finish_card() {
+        draw(1);  // the studio sees what was edited
         draw_until([&] { return std::string_view(foil().shown()) == "full" && !session_.busy(); });
         draw(3);
     }
