@@ -65,29 +65,6 @@ export interface Type {
 
 const UNITS: Record<string, string> = { mm: ", mm", um: ", µm", deg: ", °", scale: ", ×" };
 
-<<<<<<< HEAD
-/** In the order of FoilType in modules/diffraction/foil/recipe.h, with its default numbers. */
-export const TYPES: Type[] = [
-    { name: "pillars", label: "Pillars", pictures: [], knobs: [knob("Band, mm", "band_mm", 2, 40, 0.5, 9), knob("Colours a band", "pitch_range", 1.1, 2, 0.05, 1.5)] },
-    { name: "rainbow", label: "Rainbow", pictures: [], knobs: [], spread: 12 },
-    { name: "radial", label: "Radial", pictures: [], knobs: [{ ...knob("Grooves", "grooves", 0, 1, 1, 0), choices: ["rays", "circles"] }, ...CENTRE], spread: 6 },
-    { name: "tiles", label: "Tiles", pictures: [], knobs: CELLS, spread: 8 },
-    { name: "hexagons", label: "Hexagons", pictures: [], knobs: CELLS, spread: 8 },
-    { name: "cosmos", label: "Cosmos", pictures: [], knobs: [knob("Largest, mm", "size_mm", 2, 30, 0.5, 12)], spread: 8 },
-    { name: "cracked_ice", label: "Cracked ice", pictures: [], knobs: [knob("Shards, mm", "size_mm", 1, 30, 0.5, 7)], spread: 8 },
-    { name: "glitter", label: "Glitter", pictures: [], knobs: [knob("Grains, µm", "size_um", 60, 1000, 10, 120)], spread: 6 },
-    {
-        name: "brushed", label: "Brushed", pictures: [], spread: 8,
-        knobs: [knob("Strokes, mm", "stroke_mm", 0.05, 2, 0.05, 0.15), knob("Length, mm", "length_mm", 1, 60, 1, 12), knob("Unrest, °", "angle_spread_deg", 0, 45, 1, 8)],
-    },
-    {
-        name: "two_pictures", label: "Two pictures", pictures: [{ key: "picture_a", label: "First" }, { key: "picture_b", label: "Second" }],
-        knobs: [knob("First at, °", "tilts_deg", -30, 0, 1, -10, 0), knob("Second at, °", "tilts_deg", 0, 30, 1, 10, 1), knob("Lamp above, °", "lamp_deg", 20, 70, 1, 40),
-            knob("Cells, mm", "cell_mm", 0.05, 0.5, 0.01, 0.09)],
-    },
-    { name: "lens", label: "Lens", pictures: [], knobs: [knob("Focus, mm", "focal_mm", 20, 300, 5, 60), ...CENTRE] },
-    { name: "own", label: "Own", pictures: [{ key: "drawing", label: "Drawing" }], knobs: [knob("Smooth, mm", "smooth_mm", 0.1, 6, 0.1, 0.6)], spread: 8 },
-=======
 function knobOf(members: Record<string, Member>, { label, key, index, step = 1, most = Infinity }: Shown): Knob {
     const member = members[key];
     const unit = key.split("_").at(-1)!;
@@ -105,7 +82,6 @@ const CELLS: Shown[] = [{ label: "Size", key: "size_mm" }, { label: "Directions"
 const SPREAD: Shown = { label: "Sparkle to calm", key: "spread_deg" };
 const COMMON: Shown[] = [
     { label: "Scale", key: "scale" }, { label: "Direction", key: "direction_deg", step: 5 }, { label: "Grooves", key: "groove_um" }, { label: "Variation", key: "seed", most: 50 },
->>>>>>> e1abaa37940b7f05197e4997b89caa77e1b95a88
 ];
 
 /** In the order of the studio's buttons. */
