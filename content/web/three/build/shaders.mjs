@@ -117,7 +117,6 @@ function taken(lines) {
 
 function paste(text, pasted) {
     return glslLines(text).flatMap((line) => {
-        if (/^\s*#\s*include\s+[A-Z]/.test(line)) return []; // a define of the engine's own names the file
         const include = /^\s*#\s*include\s*"([^"]*)"/.exec(line);
         if (!include) return [line];
         if (pasted.has(include[1])) return [];
