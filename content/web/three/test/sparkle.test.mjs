@@ -42,7 +42,7 @@ const TOLERANCE = 4e-3;
 test("pixels are those of the slow equivalent, and their mean that of smooth foil", { skip: missing || (chromium() ? false : "needs Chromium") }, async (t) => {
     const reds = Array.from({ length: DIRECTIONS }, (_, direction) => redOf(direction));
     const { results, edges, errors, error, loaded } = await resultOf("test/module.html?sparkle_page.js",
-        { corner: CORNER, edge: EDGE_CASE, cases: CASES.map((one) => ({ ...one, reds, green: GREEN, texture: textureOf(one) })) }, { webgpu: true, seconds: 500 });
+        { corner: CORNER, edge: EDGE_CASE, cases: CASES.map((one) => ({ ...one, reds, green: GREEN, texture: textureOf(one) })) }, { webgpu: true, seconds: 1000 });
     assert.equal(error, undefined);
     assert.deepEqual(errors, []);
     assert.ok(loaded.includes("/dist/generated/sparkle.js"), loaded.join());

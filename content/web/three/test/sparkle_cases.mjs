@@ -11,8 +11,8 @@ const PITCH = 32768; // green of the material's pitch
 
 const FOIL = { pitch_nm: 1100, profile: { type: "sinusoidal", depth_nm: 180 }, orders: [-1, 1], groove_lobe: { sigma: 0.4 } };
 const BLAZED = { pitch_nm: 1300, profile: { type: "blazed", depth_nm: 250 }, orders: [1, 2], groove_lobe: { sigma: 0.3 } };
-/** `facets`: of a pixel; `pixels`: along the picture's sides. */
-const DISTANCES = [{ facets: 0.3, pixels: 96 }, { facets: 9, pixels: 64 }, { facets: 100, pixels: 24 }];
+/** `facets`: of a pixel; `pixels`: along the picture's sides; `turned`: the texture, in radians. */
+const DISTANCES = [{ facets: 0.3, pixels: 96 }, { facets: 9, pixels: 64 }, { facets: 30, pixels: 40, turned: 0.4 }, { facets: 100, pixels: 24 }];
 export const redOf = (direction) => Math.round((65535 * (direction + WITHIN)) / DIRECTIONS);
 
 export const CASES = [
@@ -24,7 +24,7 @@ export const CASES = [
 /** Two facets that do not sparkle, from near: eight pixels for each of four texels. */
 const EDGE_DIRECTIONS = [2, 2, 11, 11];
 export const EDGE_CASE = {
-    ...CASES[2], texture: { width: 4, height: 1, texels: EDGE_DIRECTIONS.flatMap((direction) => [redOf(direction), PITCH]) }, distance: { change: [1 / 32, 1 / 32], pixels: 32 },
+    ...CASES[2], texture: { width: 4, height: 1, texels: EDGE_DIRECTIONS.flatMap((direction) => [redOf(direction), PITCH]) }, distance: { change: [[1 / 32, 0], [0, 1 / 32]], pixels: 32 },
 };
 /** What each pixel of its picture shows, of foil of one direction each. */
 export const edgePicture = (shown) => Array.from({ length: 32 * 32 }, (_, i) => shown[EDGE_DIRECTIONS[Math.floor((i % 32) / 8)]]);
@@ -67,14 +67,15 @@ export function facetTexels(gaps) {
     return along(1, [1, 0]) * along(WIDTH, [0, 1]);
 }
 
-/** Of the texture's coordinates, from one pixel to the next. */
-function changeOf({ facets }, gaps) {
+/** Of the texture's coordinates, to the pixels beside and above. */
+function changeOf({ facets, turned = 0 }, gaps) {
     const texels = Math.sqrt(facets * facetTexels(gaps));
-    return [texels / WIDTH, texels / HEIGHT];
+    const [cos, sin] = [texels * Math.cos(turned), texels * Math.sin(turned)];
+    return [[cos / WIDTH, sin / HEIGHT], [-sin / WIDTH, cos / HEIGHT]];
 }
 
-/** Where the picture's corner is in the texture. */
-export const CORNER = [0.0103, 0.0207];
+/** Where the picture's corner is in the texture; all of it is at positive coordinates. */
+export const CORNER = [1.0103, 0.0207];
 
 /** Levels of { direction, coverage } of each texel: of four texels one, drawn by the generator of C++'s minstd_rand. */
 export function levelsOf(gaps) {
@@ -97,48 +98,99 @@ export function levelsOf(gaps) {
     return levels;
 }
 
+/** Where a pixel's coordinates, which are 0 in its middle and 1 apart to the next, are in the texture. */
+const pointOf = (middle, [across, down], [x, y]) => [0, 1].map((k) => middle[k] + across[k] * x + down[k] * y);
+
 /** Texels from a texel's edge, within which the GPU may look up the texel beside it. */
 const EDGE = 2e-3;
 
-/** The facets that a pixel's parts look up, or null near a texel's edge. */
-function facetsOf(levels, corner, change, noise, parts) {
-    const [{ width, height }] = levels;
-    const widest = Math.max(change[0] * width, change[1] * height);
+/** The facets at a pixel's points, or null near a texel's edge. */
+function facetsAt({ width, height, texels }, middle, change, parts) {
     const found = [];
     for (let part = 0; part < parts; ++part) {
-        const fraction = (part + 0.5) / PARTS;
-        const at = noise < 1 ? [((part & 3) + 0.5) / 4, ((part >> 2) + 0.5) / 4] : [fraction, (0.61803399 * part) % 1];
-        const { width, height, texels } = levels[Math.min(Math.floor(Math.max(Math.log2(Math.max(widest / 8, 0.5)) + fraction, 0)), levels.length - 1)];
-        const [x, y] = [width * (corner[0] + change[0] * at[0]), height * (corner[1] + change[1] * at[1])];
+        const [u, v] = pointOf(middle, change, [(part + 0.5) / PARTS - 0.5, ((0.61803399 * part) % 1) - 0.5]);
+        const [x, y] = [width * u, height * v];
         if ([x, y].some((texel) => Math.abs(texel - Math.round(texel)) < EDGE)) return null;
         found.push(texels[(Math.floor(y) % height) * width + (Math.floor(x) % width)]);
     }
     return found;
 }
 
+/** Of a weight, within which the GPU may round it otherwise. */
+const TIE = 5e-3;
+
 /**
- * The picture's pixels, RGB each, from the left below, or null near a texel's edge; `shown`: the radiance of foil of one direction,
- * for each.
+ * The facets of the texels that a pixel covers in a level, with their weights, or null near a tie. `unit`: the weight of a texel
+ * that it covers whole. A texel counts as the box around it along the pixel's sides.
+ */
+function facetsIn({ width, height, texels }, middle, [across, down], unit) {
+    const determinant = across[0] * down[1] - across[1] * down[0];
+    const inPixel = ([x, y]) => {
+        const [u, v] = [x / width - middle[0], y / height - middle[1]];
+        return [(u * down[1] - v * down[0]) / determinant, (v * across[0] - u * across[1]) / determinant];
+    };
+    const corners = [[-0.5, -0.5], [0.5, -0.5], [-0.5, 0.5], [0.5, 0.5]].map((at) => pointOf(middle, [across, down], at));
+    const [columns, rows] = [width, height].map((size, k) => corners.map((corner) => Math.floor(size * corner[k])));
+    const found = [];
+    for (let row = Math.min(...rows); row <= Math.max(...rows); ++row)
+        for (let column = Math.min(...columns); column <= Math.max(...columns); ++column) {
+            const texel = [[0, 0], [1, 0], [0, 1], [1, 1]].map(([x, y]) => inPixel([column + x, row + y]));
+            const [coveredX, coveredY] = [0, 1].map((k) => {
+                const [from, to] = [Math.min(...texel.map((at) => at[k])), Math.max(...texel.map((at) => at[k]))];
+                return Math.max(Math.min(to, 0.5) - Math.max(from, -0.5), 0) / (to - from);
+            });
+            const exact = unit * coveredX * coveredY;
+            if (Math.abs(exact - Math.floor(exact) - 0.5) < TIE) return null;
+            found.push({ ...texels[(row % height) * width + (column % width)], weight: Math.round(exact) });
+        }
+    return found;
+}
+
+/** What a pixel of few facets shows, the mean over its points. */
+function fewShown(level, middle, change, parts, shown) {
+    const found = facetsAt(level, middle, change, parts);
+    return found && [0, 1, 2].map((c) => found.reduce((sum, { direction, coverage }) => sum + (coverage > 0 ? coverage * shown[direction][c] : 0), 0) / parts);
+}
+
+/** What a pixel of many facets shows: directions, each as bright as the facets that have it are many among those that it covers in a level or two. */
+function manyShown(levels, middle, change, facets, shown) {
+    const UNIT = 6;
+    const [{ width, height }] = levels;
+    const across = Math.max(...[width, height].map((size, k) => size * (Math.abs(change[0][k]) + Math.abs(change[1][k]))));
+    let level = 0;
+    while (level < levels.length - 1 && across > 6 * 2 ** level) ++level;
+    const beyond = Math.min(Math.max((across / 2 ** level - 3) / 3, 0), 1);
+    const next = level === levels.length - 1 ? 0 : beyond * beyond * (3 - 2 * beyond);
+    const [fine, coarse] = [UNIT * (1 - next), 4 * UNIT * next]; // weights of whole texels
+    const inFine = facetsIn(levels[level], middle, change, fine);
+    const inCoarse = next > 0 ? facetsIn(levels[level + 1], middle, change, coarse) : [];
+    if (!inFine || !inCoarse) return null;
+    const sum = (of, list) => list.reduce((whole, one) => whole + of(one), 0);
+    const all = [...inFine, ...inCoarse];
+    const covered = all.filter(({ coverage }) => coverage > 0);
+    const total = sum(({ weight }) => weight, covered);
+    const square = ({ weight, coverage }) => (coverage > 0 ? weight ** 2 : 0);
+    // A facet of the coarse level is one of the four below, in whose weights it is counted once more.
+    const squares = sum(square, inFine) + (next > 0 ? sum(square, inCoarse) * (1 + (2 * fine) / coarse) : 0);
+    const coverage = sum((one) => one.weight * one.coverage, covered) / sum(({ weight }) => weight, all);
+    const side = Math.sqrt(facets);
+    const noise = Math.min((total / Math.sqrt(squares)) * (1 / side - 1 / (3 * side * side)), 1);
+    return [0, 1, 2].map((c) => coverage * shown.reduce((mean, rgb, direction) => {
+        const fraction = sum(({ weight }) => weight, covered.filter((one) => one.direction === direction)) / total;
+        return mean + rgb[c] * ((1 - noise) / PARTS + noise * fraction);
+    }, 0));
+}
+
+/**
+ * The picture's pixels, RGB each, from the left below, or null where the GPU may read other facets or weights; `shown`: the
+ * radiance of foil of one direction, for each.
  */
 export function pictureOf({ gaps }, { change, pixels }, shown, levels = levelsOf(gaps)) {
     const [{ width, height }] = levels;
-    const facets = (change[0] * width * change[1] * height) / facetTexels(gaps);
-    const side = Math.sqrt(Math.max(facets, 1));
-    const noise = facets < 4 ? 1 : Math.min(Math.sqrt(PARTS) * (1 / side - 1 / (3 * side * side)), 0.95);
-    const parts = facets < 0.02 ? 1 : PARTS;
+    const facets = (Math.abs(change[0][0] * change[1][1] - change[0][1] * change[1][0]) * width * height) / facetTexels(gaps);
     return Array.from({ length: pixels * pixels }, (_, i) => {
-        const corner = [CORNER[0] + change[0] * (i % pixels), CORNER[1] + change[1] * Math.floor(i / pixels)];
-        const found = facetsOf(levels, corner, change, noise, parts);
-        if (!found) return null;
-        const covered = found.filter(({ coverage }) => coverage > 0);
-        const sum = [0, 0, 0];
-        found.forEach(({ direction, coverage }, part) => {
-            if (coverage === 0) return;
-            const many = covered.filter((one) => one.direction === part).length; // in the part's range
-            const weight = noise < 1 ? 1 + noise * ((Math.min(many, 15) * PARTS) / covered.length - 1) : 1;
-            shown[noise < 1 ? part : direction].forEach((x, c) => (sum[c] += (weight * coverage * x) / parts));
-        });
-        return sum;
+        const middle = pointOf(CORNER, change, [(i % pixels) + 0.5, Math.floor(i / pixels) + 0.5]);
+        return facets < 4 ? fewShown(levels[0], middle, change, facets < 0.02 ? 1 : PARTS, shown) : manyShown(levels, middle, change, facets, shown);
     });
 }
 

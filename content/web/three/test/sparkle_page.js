@@ -38,7 +38,7 @@ async function drawn({ renderer, Material }, rowland, { grating, representation,
     const square = new THREE.PlaneGeometry(2, 2);
     const uv = square.getAttribute("uv");
     for (let i = 0; i < uv.count; ++i)
-        uv.setXY(i, corner[0] + pixels * change[0] * uv.getX(i), corner[1] + pixels * change[1] * uv.getY(i));
+        uv.setXY(i, ...[0, 1].map((k) => corner[k] + pixels * (change[0][k] * uv.getX(i) + change[1][k] * uv.getY(i))));
     square.setAttribute("tangent", new THREE.Float32BufferAttribute([1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1], 4));
     const scene = new THREE.Scene();
     if (lamp) {
@@ -83,7 +83,7 @@ try {
     for (const one of cases) {
         const shown = [];
         for (const red of one.reds)
-            shown.push((await drawn(drawing.WebGLRenderer, rowland, one, { change: [1, 1], pixels: 1 }, corner,
+            shown.push((await drawn(drawing.WebGLRenderer, rowland, one, { change: [[1, 0], [0, 1]], pixels: 1 }, corner,
                 grooveTexture({ width: 1, height: 1, texels: [red, one.green] }), false))[0]);
         const texture = grooveTexture(one.texture);
         const pictures = {};

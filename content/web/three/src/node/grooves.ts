@@ -265,8 +265,8 @@ export function grooves(program: Program, inputs: GrooveInputs) {
             map_uv_change: changeOf<Vec2>(uv),
         };
         if (!sparkling) return grooves_of(mesh, g_change, v_g_change, mean_moments(uv, mesh.map_uv_change).toVar());
-        const { sparkle, moments } = sparkling.find_sparkle(mesh);
-        const view = grooves_of(mesh, g_change, v_g_change, moments);
+        const sparkle = sparkling.find_sparkle(mesh);
+        const view = grooves_of(mesh, g_change, v_g_change, sparkle.moments);
         return { ...view, map: { ...view.map!, sparkle } };
     }
 

@@ -85,9 +85,9 @@ export class Program {
     textureLod(name: string, uv: Vec2 | Vec3, level: Float = float(0)): Vec4 {
         return this.texture(name).sample(uv).level(level);
     }
-    /** Width and height in texels. */
-    size(name: string): Vec2 {
-        return vec2(textureSize(this.texture(name), int(0)) as never);
+    /** Width and height in texels, of a level. */
+    size(name: string, level: Int = int(0)): Vec2 {
+        return vec2(textureSize(this.texture(name), level) as never);
     }
     /** textureLod() at level 0 of sampler2DArray. */
     textureLayer(name: string, uv: Vec2, layer: number): Vec4 {
