@@ -1,10 +1,10 @@
 #include "content/demo/assets.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <array>
 
+#include "engine/core/system.h"
 #include "modules/asset_types.h"
 
 namespace rowland::demo {
@@ -59,7 +59,7 @@ std::vector<std::filesystem::path> probe_paths(const Options& options) {
 }
 
 std::filesystem::path default_cooked_folder() {
-    return std::filesystem::read_symlink("/proc/self/exe").parent_path().parent_path() / "cooked";
+    return program_file().parent_path().parent_path() / "cooked";
 }
 
 }  // namespace rowland::demo
