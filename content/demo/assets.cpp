@@ -29,8 +29,7 @@ namespace {
 
 /// Beside the cooked assets where these can be written, else the user's.
 std::filesystem::path cache_folder(const Options& options) {
-    const bool writable = ::access(options.cooked_folder.c_str(), W_OK) == 0;
-    return writable ? options.cooked_folder : live::default_cache_folder();
+    return takes_files(options.cooked_folder) ? options.cooked_folder : live::default_cache_folder();
 }
 
 }  // namespace

@@ -21,6 +21,9 @@ std::filesystem::path code_file();
 /// may not be run.
 std::optional<std::filesystem::path> find_program(const std::filesystem::path& folder, const std::string& name);
 
+/// Whether this user may create files in `folder`.
+bool takes_files(const std::filesystem::path& folder);
+
 /// The value of an environment variable; nullopt if it is not set.
 std::optional<std::string> environment_variable(const std::string& name);
 

@@ -45,6 +45,10 @@ std::optional<std::filesystem::path> find_program(const std::filesystem::path& f
     return program;
 }
 
+bool takes_files(const std::filesystem::path& folder) {
+    return ::access(folder.c_str(), W_OK) == 0;
+}
+
 std::optional<std::string> environment_variable(const std::string& name) {
     const char* value = std::getenv(name.c_str());
     return value == nullptr ? std::nullopt : std::optional<std::string>(value);

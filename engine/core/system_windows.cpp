@@ -58,6 +58,16 @@ std::optional<std::filesystem::path> find_program(const std::filesystem::path& f
     return program;
 }
 
+bool takes_files(const std::filesystem::path& folder) {
+    // Access lists say less than a trial.
+    const std::wstring name = long_path(folder / (".rowland-" + std::to_string(GetCurrentProcessId())));
+    const HANDLE trial =
+        CreateFileW(name.c_str(), GENERIC_WRITE, 0, nullptr, CREATE_NEW, FILE_FLAG_DELETE_ON_CLOSE, nullptr);
+    if (trial == INVALID_HANDLE_VALUE) return false;
+    CloseHandle(trial);
+    return true;
+}
+
 std::optional<std::string> environment_variable(const std::string& name) {
     const std::wstring wide_name = utf16(name);
     std::wstring value(256, L'\0');

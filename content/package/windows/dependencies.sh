@@ -188,8 +188,8 @@ copy_headers() {
     done
 }
 
-libraries=(zlib libpng1.6 libjpeg-turbo libzstd xxhash fmtlib imath openexr expat yaml-cpp pystring opencolorio onetbb
-    draco libepoxy glfw3 libstb imgui googletest rapidcheck)
+libraries=(zlib libpng1.6 libjpeg-turbo libzstd xxhash fmtlib googletest onetbb libepoxy glfw3 libstb imgui imath openexr
+    expat yaml-cpp pystring opencolorio draco rapidcheck)
 for name in "${libraries[@]}"; do
     [ -f "$prefix/.built-$name" ] && continue
     say "building $name"
