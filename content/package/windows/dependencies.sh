@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Builds the libraries that Rowland needs for 64-bit Windows, from Debian's source packages, as static libraries.
-# usage: dependencies.sh CACHE    (installs into CACHE/libraries; what is there already is kept)
+# usage: dependencies.sh CACHE    (installs into CACHE/libraries; a library that is there stays)
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 cache=$(mkdir -p "$1" && cd "$1" && pwd)

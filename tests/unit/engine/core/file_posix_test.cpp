@@ -1,11 +1,11 @@
-// Pipes, devices, links, modes and limits that Windows does not have.
+// Pipes, devices, links, modes, sparse files and limits that Windows does not have, or has in another way.
 #include <fcntl.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <csignal>
-#include <limits>
+#include <fstream>
 
 #include "tests/unit/engine/core/file_fixtures.h"
 
@@ -14,6 +14,24 @@ namespace rowland {
 namespace {
 
 using testing::HasSubstr;
+
+TEST_F(File, HugeSparseFileIsRefusedBeforeAnythingIsAllocated) {
+    std::ofstream(path("sparse")).put('x');
+    // 4 EiB where the file system allows it, else less; allocating even the least of these would fail or be noticed.
+    std::error_code refused = std::make_error_code(std::errc::file_too_large);
+    for (std::uintmax_t size = std::uintmax_t{1} << 62; refused; size /= 2) {
+        ASSERT_GT(size, std::uintmax_t{1} << 40);
+        refused.clear();
+        std::filesystem::resize_file(path("sparse"), size, refused);
+    }
+    EXPECT_THAT(thrown_by([&] { read_file(path("sparse"), 1 << 20); }).what(), HasSubstr("expected at most"));
+}
+
+TEST_F(File, HugeSparseFileHasNoHash) {
+    write_file_atomic(path("a"), std::string_view("x"));
+    std::filesystem::resize_file(path("a"), std::uintmax_t{1} << 40);
+    EXPECT_EQ(hash_file(path("a")), std::nullopt);
+}
 
 TEST_F(File, WhatIsNoRegularFileIsRefusedAtOnce) {
     ASSERT_EQ(::mkfifo(path("pipe").c_str(), 0600), 0);

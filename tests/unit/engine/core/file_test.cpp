@@ -26,18 +26,6 @@ TEST_F(File, OneByteOverTheLimitIsRefused) {
     EXPECT_EQ(error.info().fault, Fault::Input);
 }
 
-TEST_F(File, HugeSparseFileIsRefusedBeforeAnythingIsAllocated) {
-    std::ofstream(path("sparse")).put('x');
-    // 4 EiB where the file system allows it, else less; allocating even the least of these would fail or be noticed.
-    std::error_code refused = std::make_error_code(std::errc::file_too_large);
-    for (std::uintmax_t size = std::uintmax_t{1} << 62; refused; size /= 2) {
-        ASSERT_GT(size, std::uintmax_t{1} << 40);
-        refused.clear();
-        std::filesystem::resize_file(path("sparse"), size, refused);
-    }
-    EXPECT_THAT(thrown_by([&] { read_file(path("sparse"), 1 << 20); }).what(), HasSubstr("expected at most"));
-}
-
 TEST_F(File, BeginningIsAtMostWhatIsThereAndNeverNothing) {
     write_file_atomic(path("a"), std::string_view("12345"));
     EXPECT_EQ(read_beginning(path("a"), 3).size(), 3U);
@@ -52,8 +40,6 @@ TEST_F(File, HashOfAFileIsThatOfItsBytes) {
     write_file_atomic(path("a"), text);
     EXPECT_EQ(hash_file(path("a")), Hasher().bytes(std::as_bytes(std::span(text))).digest());
     EXPECT_EQ(hash_file(folder_.path()), std::nullopt);
-    std::filesystem::resize_file(path("a"), std::uintmax_t{1} << 40);
-    EXPECT_EQ(hash_file(path("a")), std::nullopt);
 }
 
 TEST_F(File, WritingCreatesFoldersAndReplacesTheOldContent) {
