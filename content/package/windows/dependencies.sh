@@ -102,6 +102,9 @@ build_zlib() {
 }
 build_libpng1.6() { by_cmake libpng1.6 . -DPNG_SHARED=OFF -DPNG_TESTS=OFF; }
 build_libjpeg-turbo() { by_cmake libjpeg-turbo . -DENABLE_SHARED=OFF -DWITH_TURBOJPEG=ON; }
+build_libwebp() {
+    by_cmake libwebp . -DWEBP_BUILD_{ANIM_UTILS,CWEBP,DWEBP,GIF2WEBP,IMG2WEBP,VWEBP,WEBPINFO,EXTRAS}=OFF -DWEBP_BUILD_WEBPMUX=OFF
+}
 build_libzstd() { by_cmake libzstd build/cmake -DZSTD_BUILD_SHARED=OFF -DZSTD_BUILD_PROGRAMS=OFF -DZSTD_BUILD_TESTS=OFF; }
 build_xxhash() { by_cmake xxhash cmake_unofficial -DXXHASH_BUILD_XXHSUM=OFF; }
 build_fmtlib() { by_cmake fmtlib . -DFMT_TEST=OFF -DFMT_DOC=OFF; }
@@ -114,7 +117,9 @@ build_imath() { by_cmake imath . -DPYTHON=OFF; }
 build_openexr() {
     by_cmake openexr . -DOPENEXR_BUILD_TOOLS=OFF -DOPENEXR_INSTALL_TOOLS=OFF -DOPENEXR_INSTALL_EXAMPLES=OFF
 }
+# Debian's patches compare XML_DTD with 1, which upstream's CMake files define without a value.
 build_expat() {
+    sed -i 's/^#cmakedefine XML_DTD$/#cmakedefine XML_DTD 1/' "$sources/expat/expat/expat_config.h.cmake"
     by_cmake expat expat -DEXPAT_SHARED_LIBS=OFF -DEXPAT_BUILD_TOOLS=OFF -DEXPAT_BUILD_EXAMPLES=OFF -DEXPAT_BUILD_TESTS=OFF
 }
 build_yaml-cpp() {
@@ -188,7 +193,7 @@ copy_headers() {
     done
 }
 
-libraries=(zlib libpng1.6 libjpeg-turbo libzstd xxhash fmtlib googletest onetbb libepoxy glfw3 libstb imgui imath openexr
+libraries=(zlib libpng1.6 libjpeg-turbo libwebp libzstd xxhash fmtlib googletest onetbb libepoxy glfw3 libstb imgui imath openexr
     expat yaml-cpp pystring opencolorio draco rapidcheck)
 for name in "${libraries[@]}"; do
     [ -f "$prefix/.built-$name" ] && continue

@@ -89,10 +89,10 @@ TEST(DracoProcess, AttributeThatIsNotThereIsRefused) {
 
 TEST(DracoProcess, MissingHelperIsTheSystemsFault) {
     const rowland::test::TemporaryFolder empty;
-    test::set_variable("ROWLAND_HELPER_FOLDER", empty.path().string());
+    rowland::test::set_variable("ROWLAND_HELPER_FOLDER", empty.path().string());
     EXPECT_THAT(rowland::test::message_of([] { DracoProcess().decode(stream_of(disc())); }, Fault::System),
                 HasSubstr("rowland-decode-draco: not in"));
-    test::set_variable("ROWLAND_HELPER_FOLDER", std::nullopt);
+    rowland::test::set_variable("ROWLAND_HELPER_FOLDER", std::nullopt);
 }
 
 }  // namespace

@@ -230,11 +230,11 @@ TEST(GltfImport, AVariableRaisesTheMemoryOfAScene) {
     const auto asked = [] { MemoryBudget("a.glb").require_left(600, 1 << 20, "/meshes/0"); };
     EXPECT_THAT(rowland::test::message_of(asked),
                 testing::AllOf(HasSubstr("at most 536870912 bytes"), HasSubstr("ROWLAND_SCENE_MEMORY")));
-    test::set_variable("ROWLAND_SCENE_MEMORY", "600");
+    rowland::test::set_variable("ROWLAND_SCENE_MEMORY", "600");
     EXPECT_NO_THROW(asked());
-    test::set_variable("ROWLAND_SCENE_MEMORY", "511");
+    rowland::test::set_variable("ROWLAND_SCENE_MEMORY", "511");
     EXPECT_THAT(rowland::test::message_of(asked), HasSubstr("expected a number of MiB from 512 to 4095"));
-    test::set_variable("ROWLAND_SCENE_MEMORY", std::nullopt);
+    rowland::test::set_variable("ROWLAND_SCENE_MEMORY", std::nullopt);
 }
 
 TEST(GltfImport, NamingTheSameDataOftenDoesNotMultiplyMemoryWithoutLimit) {
