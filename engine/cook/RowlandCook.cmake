@@ -17,15 +17,22 @@
 #
 #   rowland_attach(truck SCENE truck.glb OUTPUT truck.glb GRATINGS Chrome materials/dvd.json  Badge materials/foil.json)
 #
-# The cooker is the target `rowland-cook`, or the program that ROWLAND_COOKER names: one of this machine, for a build for
-# another system. An asset may be listed once in the whole build; who shares it depends on the
-# target that lists it.
-set(ROWLAND_COOKER "" CACHE FILEPATH "A program that cooks instead of the one that is built")
+# The cooker is the target `rowland-cook`. An asset may be listed once in the whole build; who shares it depends on the
+# target that lists it. A build for another system, whose cooker does not run here, takes the assets of the build whose folder
+# of them ROWLAND_COOKED_FROM names.
+set(ROWLAND_COOKED_FROM "" CACHE PATH "Cooked assets of another build, to use instead of cooking")
+if(ROWLAND_COOKED_FROM)
+  file(CREATE_LINK "${ROWLAND_COOKED_FROM}" "${ROWLAND_COOKED_DIR}" SYMBOLIC)
+endif()
 
 function(rowland_cook_assets target)
   cmake_parse_arguments(PARSE_ARGV 1 ARG "" "" "ASSETS")
   if(ARG_UNPARSED_ARGUMENTS OR NOT ARG_ASSETS)
     message(FATAL_ERROR "rowland_cook_assets(${target} ...): expected ASSETS <source> <output>...")
+  endif()
+  if(ROWLAND_COOKED_FROM)
+    add_custom_target(${target})
+    return()
   endif()
   set(outputs)
   while(ARG_ASSETS)
@@ -49,25 +56,16 @@ function(_rowland_own_output function target output)
   set_property(GLOBAL PROPERTY "ROWLAND_COOKED_BY_${output}" ${target})
 endfunction()
 
-function(_rowland_cooker variable)
-  set(cooker rowland-cook)
-  if(ROWLAND_COOKER)
-    set(cooker "${ROWLAND_COOKER}")
-  endif()
-  set(${variable} "${cooker}" PARENT_SCOPE)
-endfunction()
-
 function(_rowland_cook_asset target source output)
   _rowland_own_output(rowland_cook_assets ${target} "${output}")
   cmake_path(ABSOLUTE_PATH source OUTPUT_VARIABLE source_path)
   set(output_path "${ROWLAND_COOKED_DIR}/${output}")
   # Beside the build's own files, not beside the assets: those are shipped.
   set(depfile "${CMAKE_CURRENT_BINARY_DIR}/cook/${output}.d")
-  _rowland_cooker(cooker)
   add_custom_command(
     OUTPUT "${output_path}"
-    COMMAND ${cooker} cook "${source_path}" -o "${output_path}" --depfile "${depfile}"
-    DEPENDS ${cooker} "${source_path}"
+    COMMAND rowland-cook cook "${source_path}" -o "${output_path}" --depfile "${depfile}"
+    DEPENDS rowland-cook "${source_path}"
     DEPFILE "${depfile}"
     COMMENT "Cooking ${output}"
     VERBATIM)
@@ -81,6 +79,10 @@ function(rowland_attach target)
     message(FATAL_ERROR
       "rowland_attach(${target} ...): expected SCENE <source> OUTPUT <output> GRATINGS <material> <grating>...")
   endif()
+  if(ROWLAND_COOKED_FROM)
+    add_custom_target(${target})
+    return()
+  endif()
   _rowland_own_output(rowland_attach ${target} "${ARG_OUTPUT}")
   cmake_path(ABSOLUTE_PATH ARG_SCENE OUTPUT_VARIABLE scene)
   set(output "${ROWLAND_COOKED_DIR}/${ARG_OUTPUT}")
@@ -93,11 +95,10 @@ function(rowland_attach target)
     list(APPEND materials --material "${material}" "${grating}")
     list(APPEND gratings "${grating}")
   endwhile()
-  _rowland_cooker(cooker)
   add_custom_command(
     OUTPUT "${output}"
-    COMMAND ${cooker} attach "${scene}" ${materials} -o "${output}" --depfile "${depfile}"
-    DEPENDS ${cooker} "${scene}" ${gratings}
+    COMMAND rowland-cook attach "${scene}" ${materials} -o "${output}" --depfile "${depfile}"
+    DEPENDS rowland-cook "${scene}" ${gratings}
     DEPFILE "${depfile}"
     COMMENT "Attaching gratings to ${ARG_OUTPUT}"
     VERBATIM)

@@ -47,12 +47,18 @@ const unsigned char* data_of(std::span<const std::byte> bytes) {
     return reinterpret_cast<const unsigned char*>(bytes.data());
 }
 
+/// As turbojpeg counts bytes: in 32 bits on Windows, which kMaximumFileBytes fits.
+unsigned long byte_count(std::span<const std::byte> bytes) {
+    return static_cast<unsigned long>(bytes.size());
+}
+
 ByteImageSize size_of(std::span<const std::byte> bytes, const Decoder& decoder, const std::string& file) {
     int width = 0;
     int height = 0;
     int subsampling = 0;
     int colourspace = 0;
-    check(tjDecompressHeader3(decoder.get(), data_of(bytes), bytes.size(), &width, &height, &subsampling, &colourspace),
+    check(tjDecompressHeader3(decoder.get(), data_of(bytes), byte_count(bytes), &width, &height, &subsampling,
+                              &colourspace),
           decoder, file);
     check_colours(colourspace, file);
     check_image_size(width, height, file, "");
@@ -75,7 +81,7 @@ ByteImage decode_jpeg(std::span<const std::byte> bytes, const std::string& file)
     // The library warns of damage and then invents texels. A progressive file can have any number of scans of a few
     // bytes each, and each scan costs as much as decoding the image.
     constexpr int kFlags = TJFLAG_ACCURATEDCT | TJFLAG_STOPONWARNING | TJFLAG_LIMITSCANS;
-    check(tjDecompress2(decoder.get(), data_of(bytes), bytes.size(), result.rgba.data(), size.width, 0, size.height,
+    check(tjDecompress2(decoder.get(), data_of(bytes), byte_count(bytes), result.rgba.data(), size.width, 0, size.height,
                         TJPF_RGBA, kFlags),
           decoder, file);
     return result;

@@ -108,7 +108,7 @@ OcioConfig OcioConfig::from_named_file(const std::filesystem::path& path, const 
         require_readable_version(read_text_file(path, max_config_bytes), source);
     }
     try {
-        return {OCIO::Config::CreateFromFile(path.c_str()), source};
+        return {OCIO::Config::CreateFromFile(path.string().c_str()), source};
     } catch (const OCIO::Exception& exception) {
         fail_to_load(source, exception);
     }

@@ -42,11 +42,11 @@ const wait = (milliseconds) => new Promise((resolve) => setTimeout(resolve, mill
 const frames = () => Number(document.documentElement.dataset.frames ?? 0);
 const said = () => document.getElementById("message").textContent;
 async function until(what, isSo) {
-    for (let i = 0; i < 1200; ++i) {
+    for (let i = 0; i < 3000; ++i) {
         if (isSo()) return;
         await wait(100);
     }
-    throw new Error(`waited two minutes for ${what}; the page says "${said()}"`);
+    throw new Error(`waited five minutes for ${what}; the page says "${said()}"`);
 }
 
 /** Every table has arrived, and no frame was drawn for a second. */

@@ -64,7 +64,8 @@ test("pixels are those of the slow equivalent, and their mean that of smooth foi
                     const off = mean / luminance(smooth) - 1;
                     t.diagnostic(`${one.name}, ${distance.facets} facets a pixel, ${renderer}: ${worst.toExponential(2)} of the brightest, mean ${(100 * off).toFixed(2)} % off`);
                     assert.ok(worst < TOLERANCE, `${renderer}: ${worst} of the brightest at ${distance.facets} facets`);
-                    assert.ok(Math.abs(off) < 0.02, `${renderer}: a mean ${off} off at ${distance.facets} facets`);
+                    // Thin pixels cover a strip of the texture, whose facets are too few for a mean.
+                    if (!distance.thin) assert.ok(Math.abs(off) < 0.02, `${renderer}: a mean ${off} off at ${distance.facets} facets`);
                 }
                 const spread = Math.sqrt(known.reduce((sum, rgb) => sum + (luminance(rgb) / luminance(smooth) - 1) ** 2, 0) / known.length);
                 t.diagnostic(`${one.name}, ${distance.facets} facets a pixel: pixels vary by ${spread.toFixed(3)} of their mean`);
