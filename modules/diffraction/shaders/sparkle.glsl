@@ -86,15 +86,7 @@ vec4 find_sparkle(MeshView mesh) {
     float facets = abs(determinant(mesh.map_uv_change)) * float(size.x) * float(size.y) / facet_texels;
     sparkle = Sparkle(facets < 0.02 ? 1 : SPARKLE_PARTS, 1.0, uvec4(0u), 0.0, 0.5, vec4(0.0));
     FacetSums sums = FacetSums(vec4(0.0), 0.0, 0.0, 0.0);
-    if (facets < FEW_FACETS) {
-        for (int part = 0; part < sparkle.parts; ++part) {
-            vec4 moments = facet_moments(mesh, part);
-            sums.weight += 1.0;
-            if (moments.z == 0.0) continue;
-            sums.seen = moments;
-            sums.coverage += moments.w;
-        }
-    } else {
+    if (facets >= FEW_FACETS) {
         // At most six texels along the longer side. Their weights go over to the next level's before these are three.
         const float UNIT = 6.0;  // the ranges' eight bits hold the weights of 36 texels
         float across = max(width.x, width.y);
@@ -107,6 +99,16 @@ vec4 find_sparkle(MeshView mesh) {
         float side = sqrt(facets);
         float read = sparkle.total * sparkle.total / max(sums.squares, 1.0);
         sparkle.noise = min(sqrt(read) * (1.0 / side - 1.0 / (3.0 * side * side)), 1.0);
+    }
+    // Of a thin pixel no texel has a weight.
+    if (sums.weight == 0.0) {
+        for (int part = 0; part < sparkle.parts; ++part) {
+            vec4 moments = facet_moments(mesh, part);
+            sums.weight += 1.0;
+            if (moments.z == 0.0) continue;
+            sums.seen = moments;
+            sums.coverage += moments.w;
+        }
     }
 #ifdef GROOVE_GAPS
     if (sums.seen.z > 0.0) {

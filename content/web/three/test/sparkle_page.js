@@ -16,15 +16,14 @@ function grooveTexture({ width, height, texels }) {
     return texture;
 }
 
-/** A blob of light before a dim ground. */
+/** A ring of light above a dim horizon. */
 function probe() {
     const [width, height] = [64, 32];
     const texels = new Float32Array(3 * width * height);
     for (let i = 0; i < width * height; ++i) {
-        const [azimuth, up] = [(2 * Math.PI * ((i % width) + 0.5)) / width, (Math.PI * (Math.floor(i / width) + 0.5)) / height];
-        const [x, y, z] = [-Math.cos(azimuth) * Math.sin(up), Math.cos(up), -Math.sin(azimuth) * Math.sin(up)];
-        const blob = Math.exp(80 * (0.3 * x + 0.45 * y + 0.84 * z - 1));
-        texels.set([0.1 + 3 * blob, 0.1 + 2.5 * blob, 0.15 + 2 * blob], 3 * i);
+        const upward = Math.cos((Math.PI * (Math.floor(i / width) + 0.5)) / height);
+        const ring = Math.exp(-(((upward - 0.5) / 0.08) ** 2));
+        texels.set([0.05 + 3 * ring, 0.05 + 2.5 * ring, 0.08 + 2 * ring], 3 * i);
     }
     return { texels, width, height };
 }
