@@ -310,6 +310,8 @@ void Workbench::draw_tiles(const platform::InputState& input, const WorkbenchFra
     const float height = frame.size.y - top - status;
     session_.foil ? draw_foil_tiles(input, frame, height) : draw_document_tiles(input, frame, height);
     draw_status(top + height, frame.size.x, status, frame.frame_ms);
+    // A window takes the focus when it appears. The fields shall have it, so that the first Tab goes to the first one.
+    if (!std::exchange(focused_, true)) ImGui::SetWindowFocus(session_.foil ? "Foil card" : "Material");
 }
 
 void Workbench::draw_foil_tiles(const platform::InputState& input, const WorkbenchFrame& frame, float height) {
@@ -375,8 +377,6 @@ void Workbench::draw_document_tiles(const platform::InputState& input, const Wor
     splitter("right splitter", {frame.size.x - right - gap, top}, {gap, height}, layout_.physics_width, right, -1.0F);
     splitter("lower splitter", {left + gap, top + height - below - gap}, {middle, gap}, layout_.price_height, below,
              -1.0F);
-    // A window takes the focus when it appears. The fields shall have it, so that the first Tab goes to the first one.
-    if (!std::exchange(focused_, true)) ImGui::SetWindowFocus("Material");
 }
 
 void Workbench::draw_status(float top, float width, float height, double frame_ms) {

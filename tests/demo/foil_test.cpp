@@ -17,6 +17,7 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <numeric>
+#include <random>
 #include <span>
 #include <string>
 #include <utility>
@@ -28,6 +29,8 @@
 #include "engine/gpu/framebuffer.h"
 #include "engine/image/byte_image.h"
 #include "engine/platform/gl_context.h"
+#include "engine/scene/mesh_recipe.h"
+#include "modules/diffraction/asset/gltf_extension.h"
 #include "modules/diffraction/foil/card.h"
 #include "modules/diffraction/reference/reference.h"
 #include "modules/diffraction/runtime/diffraction_surface.h"
@@ -35,6 +38,7 @@
 #include "modules/diffraction/runtime/groove_map.h"
 #include "tests/demo/demo_session.h"
 #include "tests/support/files.h"
+#include "tests/unit/engine/scene/hand_written_gltf.h"
 
 namespace rowland {
 namespace {
@@ -205,6 +209,49 @@ TEST(DrawnFoil, GlitterIsTheMeanOfItsFacetsAtAllDistances) {
         EXPECT_NEAR(density, 1.0, 0.1) << side;
         EXPECT_LE(jumps, content + 0.04) << side;
     }
+}
+
+/// A square of foil, in which the grooves of each texel have a direction of their own, and no recipe.
+std::vector<std::byte> random_grooves(bool sparkles) {
+    constexpr int kTexels = 256;
+    constexpr std::uint8_t kOwnPitch = 128;
+    std::mt19937 random(7);
+    std::vector<std::uint8_t> grooves;
+    for (int i = 0; i < kTexels * kTexels; ++i)
+        grooves.insert(grooves.end(), {static_cast<std::uint8_t>(random() % 256), kOwnPitch, 0});
+    const std::vector<std::byte> picture = image::encode_png(kTexels, kTexels, 3, grooves);
+    nlohmann::json file = {{"asset", {{"version", "2.0"}}},
+                           {"extensionsUsed", {diffraction::kGltfExtension}},
+                           {"scenes", {{{"nodes", {0}}}}},
+                           {"nodes", {{{"mesh", 0}, {"rotation", {std::sqrt(0.5), 0, 0, std::sqrt(0.5)}}}}},
+                           {"textures", {{{"source", 0}}}},
+                           {"images", {{{"uri", scene::test::data_uri(picture, "image/png")}}}}};
+    file["materials"][0]["extensions"][diffraction::kGltfExtension] = {
+        {"grating", {{"pitch_nm", 1600}, {"profile", {{"type", "slit"}, {"width_nm", 800}}}}},
+        {"grooveTexture", {{"index", 0}, {"sparkle", sparkles}}},
+        {"quality", {{"representation", "direct"}}}};
+    nlohmann::json square =
+        scene::test::primitive_of(file, scene::build_mesh(scene::PlaneRecipe{.width = 1.0, .depth = 1.0}));
+    square["material"] = 0;
+    file["meshes"] = {{{"primitives", {square}}}};
+    return scene::test::glb_of(file);
+}
+
+/// Pixels are as smooth as the means of their moments, unless the texture says that its facets sparkle.
+TEST(DrawnFoil, SparklesWhereItsTextureSaysSo) {
+    const platform::HeadlessContext context;
+    const test::TemporaryFolder folder;
+    const auto drawn = [&](bool sparkles) {
+        demo::Options options = test::session_options();
+        options.probe = options.cooked_folder / "studio.probe";
+        options.scene = folder.path() / (sparkles ? "sparkling.glb" : "smooth.glb");
+        write_file_atomic(*options.scene, random_grooves(sparkles));
+        return Card(options, 0.75).draw(16);  // 144 texels in each pixel: a part of it has several
+    };
+    const Pixels smooth = drawn(false);
+    const Pixels sparkling = drawn(true);
+    EXPECT_GT(sparkling.sparkle(), 4.0 * smooth.sparkle());
+    EXPECT_NEAR(sparkling.mean() / smooth.mean(), 1.0, 0.15);
 }
 
 constexpr int kKinegram = 512;

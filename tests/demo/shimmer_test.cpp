@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
 #include <filesystem>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -15,26 +14,18 @@
 #include <glm/vec3.hpp>
 #include <limits>
 #include <map>
-#include <nlohmann/json.hpp>
-#include <random>
 #include <string>
 #include <vector>
 
 #include "content/demo/pixel/surface_point.h"
 #include "content/demo/play/body.h"
 #include "content/demo/session.h"
-#include "engine/core/file.h"
 #include "engine/gpu/framebuffer.h"
-#include "engine/image/byte_image.h"
 #include "engine/platform/gl_context.h"
 #include "engine/render/gpu_mesh.h"
-#include "engine/scene/mesh_recipe.h"
 #include "engine/scene/transform.h"
-#include "modules/diffraction/asset/gltf_extension.h"
 #include "modules/diffraction/runtime/diffraction_surface.h"
 #include "tests/demo/demo_session.h"
-#include "tests/support/files.h"
-#include "tests/unit/engine/scene/hand_written_gltf.h"
 
 namespace rowland {
 namespace {
@@ -297,46 +288,6 @@ TEST(Shimmer, PixelsOfTheCabinetsGratingsShowWhatTheyCover) {
     hold_goals(shimmer, options, "night", {0});
     if (std::filesystem::exists(options.cooked_folder / "captured_studio.probe"))
         hold_goals(shimmer, options, "captured_studio", {0});
-}
-
-/// A square of foil, in which the grooves of each texel have a direction of their own.
-std::vector<std::byte> foil(bool sparkles) {
-    constexpr int kTexels = 256;
-    constexpr std::uint8_t kOwnPitch = 128;
-    std::mt19937 random(7);
-    std::vector<std::uint8_t> grooves;
-    for (int i = 0; i < kTexels * kTexels; ++i)
-        grooves.insert(grooves.end(), {static_cast<std::uint8_t>(random() % 256), kOwnPitch, 0});
-    const std::vector<std::byte> picture = image::encode_png(kTexels, kTexels, 3, grooves);
-    nlohmann::json file = {
-        {"asset", {{"version", "2.0"}}}, {"extensionsUsed", {diffraction::kGltfExtension}},
-        {"scenes", {{{"nodes", {0}}}}},  {"nodes", {{{"mesh", 0}, {"name", "foil"}}}},
-        {"textures", {{{"source", 0}}}}, {"images", {{{"uri", scene::test::data_uri(picture, "image/png")}}}}};
-    file["materials"][0]["extensions"][diffraction::kGltfExtension] = {
-        {"grating", {{"pitch_nm", 1600}, {"profile", {{"type", "slit"}, {"width_nm", 800}}}}},
-        {"grooveTexture", {{"index", 0}, {"sparkle", sparkles}}},
-        {"quality", {{"representation", "direct"}}}};
-    nlohmann::json square =
-        scene::test::primitive_of(file, scene::build_mesh(scene::PlaneRecipe{.width = 1.0, .depth = 1.0}));
-    square["material"] = 0;
-    file["meshes"] = {{{"primitives", {square}}}};
-    return scene::test::glb_of(file);
-}
-
-TEST(Shimmer, OfAFoilThatSparklesIsMore) {
-    const platform::HeadlessContext context;
-    const test::TemporaryFolder folder;
-    const auto change = [&](bool sparkles) {
-        demo::Options options = test::session_options();
-        options.probe = options.cooked_folder / "studio.probe";
-        options.scene = folder.path() / (sparkles ? "sparkling.glb" : "filtered.glb");
-        write_file_atomic(*options.scene, foil(sparkles));
-        Shimmer shimmer(options, {320, 180});
-        shimmer.use_probe(*options.probe);
-        return shimmer.measure(shimmer.session().scene().camera(), false).gratings.at("foil").change;
-    };
-    const double filtered = change(false);
-    EXPECT_GT(change(true), 2.0 * filtered);
 }
 
 }  // namespace

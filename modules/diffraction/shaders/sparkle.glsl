@@ -3,6 +3,7 @@
 
 const int SPARKLE_PARTS = 16;
 const float FEW_FACETS = 4.0;
+const int MOST_ALONG = 8;  // texels along a side; a pixel covers six, of which it cuts two
 
 // A pixel with few facets is shaded at points. One with more is shaded in equal ranges of directions, each as bright as
 // the facets in it are many, of those whose texels the pixel covers in a level with few: they belong to the surface, so
@@ -46,10 +47,19 @@ struct FacetSums {
     float squares;   // of the facets' weights
 };
 
+// The texels of a level that the pixel covers.
+float texels_in(MeshView mesh, int level) {
+    vec2 texels = vec2(textureSize(groove_map, level));
+    return abs(determinant(mesh.map_uv_change)) * texels.x * texels.y;
+}
+
+// The weight of a texel that the pixel covers whole: 200 for all texels of a level, so that a range's eight bits hold
+// them, whatever the pixel's shape.
+float texel_weight(MeshView mesh, int level) { return 200.0 / min(texels_in(mesh, level), float(MOST_ALONG * MOST_ALONG)); }
+
 // Adds the facets of a level. `unit`: the weight of a texel that the pixel covers whole; `below`: that of one of the level
 // below, whose facets these are as well.
 void count_facets(MeshView mesh, int level, float unit, float below, inout FacetSums sums) {
-    const int MOST = 8;  // along a side; a pixel covers six texels, of which it cuts two
     vec2 texels = vec2(textureSize(groove_map, level));
     mat2 to_texels = mat2(mesh.map_uv_change[0] * texels, mesh.map_uv_change[1] * texels);
     mat2 to_pixel = inverse(to_texels);
@@ -57,7 +67,7 @@ void count_facets(MeshView mesh, int level, float unit, float below, inout Facet
     vec2 half_texel = 0.5 * (abs(to_pixel[0]) + abs(to_pixel[1]));
     vec2 middle = mesh.map_uv * texels;
     vec2 first = floor(middle - half_pixel);
-    ivec2 count = min(ivec2(floor(middle + half_pixel) - first) + 1, ivec2(MOST));
+    ivec2 count = min(ivec2(floor(middle + half_pixel) - first) + 1, ivec2(MOST_ALONG));
     for (int i = 0; i < count.x * count.y; ++i) {
         vec2 texel = first + vec2(i % count.x, i / count.x) + 0.5;
         vec2 at = to_pixel * (texel - middle);
@@ -81,27 +91,11 @@ void count_facets(MeshView mesh, int level, float unit, float below, inout Facet
 
 // Returns the moments of one of the pixel's facets, with the pixel's coverage. Call it first.
 vec4 find_sparkle(MeshView mesh) {
-    ivec2 size = textureSize(groove_map, 0);
-    vec2 width = (abs(mesh.map_uv_change[0]) + abs(mesh.map_uv_change[1])) * vec2(size);
-    float facets = abs(determinant(mesh.map_uv_change)) * float(size.x) * float(size.y) / facet_texels;
+    vec2 size = vec2(textureSize(groove_map, 0));
+    float facets = texels_in(mesh, 0) / facet_texels;
     sparkle = Sparkle(facets < 0.02 ? 1 : SPARKLE_PARTS, 1.0, uvec4(0u), 0.0, 0.5, vec4(0.0));
     FacetSums sums = FacetSums(vec4(0.0), 0.0, 0.0, 0.0);
-    if (facets >= FEW_FACETS) {
-        // At most six texels along the longer side. Their weights go over to the next level's before these are three.
-        const float UNIT = 6.0;  // the ranges' eight bits hold the weights of 36 texels
-        float across = max(width.x, width.y);
-        int last = int(log2(float(max(size.x, size.y))) + 0.01);
-        int level = clamp(int(ceil(log2(across / 6.0))), 0, last);
-        float next = level == last ? 0.0 : smoothstep(3.0, 6.0, across / exp2(float(level)));
-        count_facets(mesh, level, UNIT * (1.0 - next), 0.0, sums);
-        if (next > 0.0) count_facets(mesh, level + 1, 4.0 * UNIT * next, UNIT * (1.0 - next), sums);
-        // The pixel's edges cut facets: a mean over a square of the side a > 1 has the variance (1/a - 1/(3 a^2))^2.
-        float side = sqrt(facets);
-        float read = sparkle.total * sparkle.total / max(sums.squares, 1.0);
-        sparkle.noise = min(sqrt(read) * (1.0 / side - 1.0 / (3.0 * side * side)), 1.0);
-    }
-    // Of a thin pixel no texel has a weight.
-    if (sums.weight == 0.0) {
+    if (facets < FEW_FACETS) {
         for (int part = 0; part < sparkle.parts; ++part) {
             vec4 moments = facet_moments(mesh, part);
             sums.weight += 1.0;
@@ -109,6 +103,20 @@ vec4 find_sparkle(MeshView mesh) {
             sums.seen = moments;
             sums.coverage += moments.w;
         }
+    } else {
+        // At most six texels along the longer side. Their weights go over to the next level's before these are three.
+        vec2 width = (abs(mesh.map_uv_change[0]) + abs(mesh.map_uv_change[1])) * size;
+        float across = max(width.x, width.y);
+        int last = int(log2(max(size.x, size.y)) + 0.01);
+        int level = clamp(int(ceil(log2(across / 6.0))), 0, last);
+        float next = level == last ? 0.0 : smoothstep(3.0, 6.0, across / exp2(float(level)));
+        float unit = (1.0 - next) * texel_weight(mesh, level);
+        count_facets(mesh, level, unit, 0.0, sums);
+        if (next > 0.0) count_facets(mesh, level + 1, next * texel_weight(mesh, level + 1), unit, sums);
+        // The pixel's edges cut facets: a mean over a square of the side a > 1 has the variance (1/a - 1/(3 a^2))^2.
+        float side = sqrt(facets);
+        float read = sparkle.total * sparkle.total / max(sums.squares, 1.0);
+        sparkle.noise = min(sqrt(read) * (1.0 / side - 1.0 / (3.0 * side * side)), 1.0);
     }
 #ifdef GROOVE_GAPS
     if (sums.seen.z > 0.0) {

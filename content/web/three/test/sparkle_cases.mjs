@@ -11,8 +11,8 @@ const PITCH = 32768; // green of the material's pitch
 
 const FOIL = { pitch_nm: 1100, profile: { type: "sinusoidal", depth_nm: 180 }, orders: [-1, 1], groove_lobe: { sigma: 0.4 } };
 const BLAZED = { pitch_nm: 1300, profile: { type: "blazed", depth_nm: 250 }, orders: [1, 2], groove_lobe: { sigma: 0.3 } };
-/** `facets`: of a pixel; `pixels`: along the picture's sides; `turned`: the texture, in radians. */
-const DISTANCES = [{ facets: 0.3, pixels: 96 }, { facets: 9, pixels: 64 }, { facets: 30, pixels: 40, turned: 0.4 }, { facets: 100, pixels: 24 }];
+/** `facets`: of a pixel; `pixels`: along the picture's sides; `turned`: the texture, in radians; `thin`: the root of a pixel's aspect. */
+const DISTANCES = [{ facets: 0.3, pixels: 96 }, { facets: 9, pixels: 64 }, { facets: 30, pixels: 40, turned: 0.4 }, { facets: 100, pixels: 24 }, { facets: 12, pixels: 40, thin: 8 }];
 export const redOf = (direction) => Math.round((65535 * (direction + WITHIN)) / DIRECTIONS);
 
 export const CASES = [
@@ -68,11 +68,13 @@ export function facetTexels(gaps) {
 }
 
 /** Of the texture's coordinates, to the pixels beside and above. */
-function changeOf({ facets, turned = 0 }, gaps) {
+function changeOf({ facets, turned = 0, thin = 1 }, gaps) {
     const texels = Math.sqrt(facets * facetTexels(gaps));
     const [cos, sin] = [texels * Math.cos(turned), texels * Math.sin(turned)];
-    return [[cos / WIDTH, sin / HEIGHT], [-sin / WIDTH, cos / HEIGHT]];
+    return [[(cos * thin) / WIDTH, (sin * thin) / HEIGHT], [-sin / thin / WIDTH, cos / thin / HEIGHT]];
 }
+
+const areaOf = ([across, down]) => Math.abs(across[0] * down[1] - across[1] * down[0]);
 
 /** Where the picture's corner is in the texture; all of it is at positive coordinates. */
 export const CORNER = [1.0103, 0.0207];
@@ -154,18 +156,19 @@ function fewShown(level, middle, change, parts, shown) {
 
 /** What a pixel of many facets shows: directions, each as bright as the facets that have it are many among those that it covers in a level or two. */
 function manyShown(levels, middle, change, facets, shown) {
-    const UNIT = 6;
     const [{ width, height }] = levels;
     const across = Math.max(...[width, height].map((size, k) => size * (Math.abs(change[0][k]) + Math.abs(change[1][k]))));
     let level = 0;
     while (level < levels.length - 1 && across > 6 * 2 ** level) ++level;
     const beyond = Math.min(Math.max((across / 2 ** level - 3) / 3, 0), 1);
     const next = level === levels.length - 1 ? 0 : beyond * beyond * (3 - 2 * beyond);
-    const [fine, coarse] = [UNIT * (1 - next), 4 * UNIT * next]; // weights of whole texels
+    // Weights of whole texels: 200 for all of a level.
+    const whole = (of) => 200 / Math.min(areaOf(change) * of.width * of.height, 64);
+    const [fine, coarse] = [(1 - next) * whole(levels[level]), next > 0 ? next * whole(levels[level + 1]) : 0];
     const inFine = facetsIn(levels[level], middle, change, fine);
     const inCoarse = next > 0 ? facetsIn(levels[level + 1], middle, change, coarse) : [];
     if (!inFine || !inCoarse) return null;
-    const sum = (of, list) => list.reduce((whole, one) => whole + of(one), 0);
+    const sum = (of, list) => list.reduce((before, one) => before + of(one), 0);
     const all = [...inFine, ...inCoarse];
     const covered = all.filter(({ coverage }) => coverage > 0);
     const total = sum(({ weight }) => weight, covered);
@@ -187,7 +190,7 @@ function manyShown(levels, middle, change, facets, shown) {
  */
 export function pictureOf({ gaps }, { change, pixels }, shown, levels = levelsOf(gaps)) {
     const [{ width, height }] = levels;
-    const facets = (Math.abs(change[0][0] * change[1][1] - change[0][1] * change[1][0]) * width * height) / facetTexels(gaps);
+    const facets = (areaOf(change) * width * height) / facetTexels(gaps);
     return Array.from({ length: pixels * pixels }, (_, i) => {
         const middle = pointOf(CORNER, change, [(i % pixels) + 0.5, Math.floor(i / pixels) + 0.5]);
         return facets < 4 ? fewShown(levels[0], middle, change, facets < 0.02 ? 1 : PARTS, shown) : manyShown(levels, middle, change, facets, shown);

@@ -8,6 +8,7 @@ import { loop, type Float, type Int, type Program, type Uint, type Vec2, type Ve
 
 const SPARKLE_PARTS = 16;
 const FEW_FACETS = 4;
+const MOST_ALONG = 8; // texels along a side; a pixel covers six, of which it cuts two
 
 /**
  * A pixel with few facets is shaded at points. One with more is shaded in equal ranges of directions, each as bright as
@@ -51,12 +52,23 @@ export function sparkle_of(program: Program) {
         return facet_at(map_uv.add(across.mul(at.x)).add(down.mul(at.y)));
     }
 
+    /** The texels of a level that the pixel covers. */
+    function texels_in({ map_uv_change: [across, down] }: MeshView, level?: Int): Float {
+        const texels = program.size("groove_map", level).toVar();
+        return abs(across.x.mul(down.y).sub(across.y.mul(down.x))).mul(texels.x).mul(texels.y);
+    }
+
+    /**
+     * The weight of a texel that the pixel covers whole: 200 for all texels of a level, so that a range's eight bits
+     * hold them, whatever the pixel's shape.
+     */
+    const texel_weight = (mesh: MeshView, level: Int): Float => float(200).div(min(texels_in(mesh, level), MOST_ALONG * MOST_ALONG));
+
     /**
      * Adds the facets of a level. `unit`: the weight of a texel that the pixel covers whole; `below`: that of one of the
      * level below, whose facets these are as well.
      */
     function count_facets({ map_uv, map_uv_change }: MeshView, level: Int, unit: Float, below: Float, sparkle: Sparkle, sums: FacetSums): void {
-        const MOST = 8; // along a side; a pixel covers six texels, of which it cuts two
         const texels = program.size("groove_map", level).toVar();
         const across = map_uv_change[0].mul(texels).toVar();
         const down = map_uv_change[1].mul(texels).toVar();
@@ -66,7 +78,7 @@ export function sparkle_of(program: Program) {
         const half_texel = abs(to_pixel[0]).add(abs(to_pixel[1])).mul(0.5).toVar();
         const middle = map_uv.mul(texels).toVar();
         const first = floor(middle.sub(half_pixel)).toVar();
-        const count = min(floor(middle.add(half_pixel)).sub(first).add(1), MOST).toVar();
+        const count = min(floor(middle.add(half_pixel)).sub(first).add(1), MOST_ALONG).toVar();
         const columns = int(count.x).toVar() as Int;
         loop("texel_of_facet", 0, int(count.x.mul(count.y)).toVar() as Int, (i) => {
             const row = i.div(columns).toVar() as Int;
@@ -98,8 +110,7 @@ export function sparkle_of(program: Program) {
         const size = program.size("groove_map").toVar();
         const [across, down] = mesh.map_uv_change;
         const width = abs(across).add(abs(down)).mul(size).toVar();
-        const area = abs(across.x.mul(down.y).sub(across.y.mul(down.x)));
-        const facets = area.mul(size.x).mul(size.y).div(program.float("facet_texels")).toVar();
+        const facets = texels_in(mesh).div(program.float("facet_texels")).toVar();
         const sparkle: Sparkle = {
             parts: select(facets.lessThan(0.02), int(1), int(SPARKLE_PARTS)).toVar() as Int,
             noise: float(1).toVar(),
@@ -120,14 +131,16 @@ export function sparkle_of(program: Program) {
             });
         }).Else(() => {
             // At most six texels along the longer side. Their weights go over to the next level's before these are three.
-            const UNIT = 6; // the ranges' eight bits hold the weights of 36 texels
             const longer = max(width.x, width.y).toVar();
             const last = int(log2(max(size.x, size.y)).add(0.01));
             const level = int(clamp(ceil(log2(longer.div(6))), 0, float(last))).toVar() as Int;
             const next = select(level.equal(last), float(0), smoothstep(3, 6, longer.div(exp2(float(level))))).toVar() as Float;
-            const unit = float(1).sub(next).mul(UNIT).toVar();
+            const unit = float(1).sub(next).mul(texel_weight(mesh, level)).toVar();
             count_facets(mesh, level, unit, float(0), sparkle, sums);
-            If(next.greaterThan(0), () => count_facets(mesh, level.add(1).toVar() as Int, next.mul(4 * UNIT).toVar(), unit, sparkle, sums));
+            If(next.greaterThan(0), () => {
+                const coarser = level.add(1).toVar() as Int;
+                count_facets(mesh, coarser, next.mul(texel_weight(mesh, coarser)).toVar(), unit, sparkle, sums);
+            });
             // The pixel's edges cut facets: a mean over a square of the side a > 1 has the variance (1/a - 1/(3 a^2))^2.
             const side = sqrt(facets).toVar();
             const read = sparkle.total.mul(sparkle.total).div(max(sums.squares, 1)).toVar();
