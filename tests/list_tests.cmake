@@ -1,18 +1,18 @@
 # Read by CTest before it runs tests, once per test program (tests/CMakeLists.txt): declares the tests of `program`.
-# In: program, timeout (s), cost (s), slow (regex of full test names, or empty), apart (each test is a test of CTest).
+# In: program, launcher (what runs programs of another system, or empty), timeout (s), cost (s), slow (regex of full test names, or empty), apart (each test is a test of CTest).
 get_filename_component(program_name ${program} NAME)
 if(NOT EXISTS ${program})
   add_test(${program_name}_NOT_BUILT ${program_name}_NOT_BUILT)
   return()
 endif()
-execute_process(COMMAND ${program} --gtest_list_tests OUTPUT_VARIABLE output RESULT_VARIABLE status)
+execute_process(COMMAND ${launcher} ${program} --gtest_list_tests OUTPUT_VARIABLE output RESULT_VARIABLE status)
 if(NOT status EQUAL 0)
   message(FATAL_ERROR "${program} --gtest_list_tests failed: ${status}")
 endif()
 
 # declare(<name> <gtest filter> <label>)
 macro(declare name filter label)
-  add_test(${name} ${program} --gtest_filter=${filter})
+  add_test(${name} ${launcher} ${program} --gtest_filter=${filter})
   set_tests_properties(${name} PROPERTIES TIMEOUT ${timeout} LABELS "${label};${program_name}")
 endmacro()
 # Tests that take seconds each start first. A single test may be reported as skipped; a suite may not, as
@@ -34,6 +34,7 @@ set(suite "")
 set(quick_tests "")
 set(all_tests "")
 string(REGEX REPLACE " +#[^\n]*" "" output "${output}") # the values of parameters
+string(REPLACE "\r" "" output "${output}")
 string(REPLACE "\n" ";" lines "${output}")
 foreach(line IN LISTS lines)
   if(line MATCHES "^([^ ]+)\\.$")

@@ -1,10 +1,10 @@
 #include "content/demo/assets.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <array>
 
+#include "engine/core/system.h"
 #include "modules/asset_types.h"
 
 namespace rowland::demo {
@@ -29,8 +29,7 @@ namespace {
 
 /// Beside the cooked assets where these can be written, else the user's.
 std::filesystem::path cache_folder(const Options& options) {
-    const bool writable = ::access(options.cooked_folder.c_str(), W_OK) == 0;
-    return writable ? options.cooked_folder : live::default_cache_folder();
+    return takes_files(options.cooked_folder) ? options.cooked_folder : live::default_cache_folder();
 }
 
 }  // namespace
@@ -59,7 +58,7 @@ std::vector<std::filesystem::path> probe_paths(const Options& options) {
 }
 
 std::filesystem::path default_cooked_folder() {
-    return std::filesystem::read_symlink("/proc/self/exe").parent_path().parent_path() / "cooked";
+    return program_file().parent_path().parent_path() / "cooked";
 }
 
 }  // namespace rowland::demo

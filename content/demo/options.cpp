@@ -10,6 +10,7 @@
 #include "engine/command_line/command_line.h"
 #include "engine/core/error.h"
 #include "engine/core/file.h"
+#include "engine/core/program.h"
 #include "engine/view/picture.h"
 
 namespace rowland::demo {
@@ -147,7 +148,7 @@ std::optional<Options> parse_options(int argc, const char* const* argv) {
     CLI::App app{"Rowland's demo: a grating under a light probe, shaded by Lindsay & Agu's method.", "rowland-demo"};
     app.footer(std::string(kFooter) + help_text());
     Options options;
-    options.shader_folder = ROWLAND_SOURCE_DIR;
+    options.shader_folder = resources_folder(ROWLAND_SOURCE_DIR);
     options.content_folder = options.shader_folder / "content";
     add_options(app, options);
     if (!parse_command_line(app, argc, argv)) return std::nullopt;

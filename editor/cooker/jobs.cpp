@@ -19,6 +19,7 @@
 #include "engine/core/file.h"
 #include "engine/core/json_reader.h"
 #include "engine/core/log.h"
+#include "engine/core/system.h"
 #include "engine/core/text.h"
 
 namespace rowland::editor {
@@ -159,7 +160,7 @@ class Worker {
         : registry_(registry),
           state_folder_(std::move(state_folder)),
           // Another build of this program may cook the same sources differently.
-          cooker_(hex(hash_file("/proc/self/exe")) + std::string(cook::tool_version())) {
+          cooker_(hex(hash_file(program_file())) + std::string(cook::tool_version())) {
         create_folder(state_folder_);
     }
 

@@ -1,7 +1,6 @@
 // rowland-cook over the asset types of all modules, with its commands "foil", "export" and "capture".
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
@@ -14,6 +13,7 @@
 #include "editor/cooker/cooker_program.h"
 #include "editor/cooker/foil_command.h"
 #include "engine/command_line/command_line.h"
+#include "engine/core/child_process.h"
 #include "engine/core/error.h"
 #include "engine/core/file.h"
 #include "engine/core/program.h"
@@ -149,15 +149,7 @@ void add_capture_command(CLI::App& program) {
         program.add_subcommand("capture", "Capture the light probes of a .gltf or .glb from the scene itself");
     command->prefix_command();
     command->set_help_flag();  // its own
-    command->callback([command] {
-        const std::string path = helper_program("rowland-capture").string();
-        std::vector<std::string> arguments = command->remaining();
-        std::vector<char*> argv{const_cast<char*>("rowland-capture")};
-        for (std::string& argument : arguments) argv.push_back(argument.data());
-        argv.push_back(nullptr);
-        execv(path.c_str(), argv.data());
-        fail_system(path, "cannot be run", "build or install Rowland again");
-    });
+    command->callback([command] { continue_as(helper_program("rowland-capture"), command->remaining()); });
 }
 
 }  // namespace
@@ -165,7 +157,7 @@ void add_capture_command(CLI::App& program) {
 }  // namespace rowland::editor
 
 int main(int argc, char** argv) {
-    return rowland::editor::run_cooker(argc, argv, *rowland::modules::asset_types(),
-                                       {rowland::editor::add_foil_command, rowland::editor::add_export_command,
-                                        rowland::editor::add_capture_command});
+    return rowland::editor::run_cooker(
+        argc, argv, *rowland::modules::asset_types(),
+        {rowland::editor::add_foil_command, rowland::editor::add_export_command, rowland::editor::add_capture_command});
 }

@@ -6,10 +6,11 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <cstdlib>
 #include <cstring>
 #include <system_error>
 #include <utility>
+
+#include "engine/core/system.h"
 
 namespace rowland::inspector {
 
@@ -85,8 +86,8 @@ bool is_of_kind(const std::filesystem::path& file, FileKind kind) {
 }
 
 std::filesystem::path resolved(const std::string& typed, const std::filesystem::path& folder) {
-    const char* home = std::getenv("HOME");
-    if (home != nullptr && typed.starts_with("~/")) return std::filesystem::path(home) / typed.substr(2);
+    const auto home = typed.starts_with("~/") ? home_folder() : std::nullopt;
+    if (home) return *home / typed.substr(2);
     return folder / typed;
 }
 

@@ -159,8 +159,7 @@ void FoilPanel::draw_field(FoilStudio& studio, const Field& field, const FoilAct
     ImGui::AlignTextToFramePadding();
     ImGui::TextUnformatted(field.label.c_str());
     show_help(field);
-    ImGui::SameLine(8.4F * font);
-    ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - 2.0F * font);
+    begin_control(8.4F);
     if (refused) {
         ImGui::PushStyleColor(ImGuiCol_Border, kRefused);
         ImGui::PushStyleVar(ImGuiStyleVar_FrameBorderSize, 2.0F);

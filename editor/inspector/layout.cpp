@@ -1,12 +1,12 @@
 #include "editor/inspector/layout.h"
 
 #include <algorithm>
-#include <cstdlib>
 
 #include "editor/inspector/field.h"
 #include "engine/core/error.h"
 #include "engine/core/file.h"
 #include "engine/core/log.h"
+#include "engine/core/system.h"
 
 namespace rowland::inspector {
 
@@ -74,10 +74,7 @@ void save_layout(const Layout& layout, const std::filesystem::path& path) {
 }
 
 std::optional<std::filesystem::path> default_layout_file() {
-    if (const char* config = std::getenv("XDG_CONFIG_HOME"); config != nullptr && *config != '\0')
-        return std::filesystem::path(config) / "rowland" / "inspector.json";
-    if (const char* home = std::getenv("HOME"); home != nullptr && *home != '\0')
-        return std::filesystem::path(home) / ".config" / "rowland" / "inspector.json";
+    if (const auto folder = settings_folder()) return *folder / "rowland" / "inspector.json";
     return std::nullopt;
 }
 

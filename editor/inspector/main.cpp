@@ -20,6 +20,7 @@
 #include "engine/core/log.h"
 #include "engine/core/parallel.h"
 #include "engine/core/program.h"
+#include "engine/core/system.h"
 #include "engine/gpu/context.h"
 #include "engine/gpu/framebuffer.h"
 #include "engine/ui/ui.h"
@@ -78,7 +79,7 @@ std::optional<Options> parse_options(int argc, const char* const* argv) {
         "rowland-inspector"};
     app.footer(kFooter);
     Options options;
-    options.content_folder = std::filesystem::path(ROWLAND_SOURCE_DIR) / "content";
+    options.content_folder = resources_folder(ROWLAND_SOURCE_DIR) / "content";
     std::string shape;
     app.add_option("FILE", options.file,
                    "A material or a foil recipe (.json), or a glTF file whose gratings and films to edit");
@@ -130,7 +131,7 @@ std::filesystem::path default_light(const std::vector<std::filesystem::path>& li
 
 /// The folder of the recipes of captured probes, among the cooked assets beside this program.
 std::filesystem::path capture_recipes() {
-    return std::filesystem::read_symlink("/proc/self/exe").parent_path().parent_path() / "cooked" / "recipes";
+    return program_file().parent_path().parent_path() / "cooked" / "recipes";
 }
 
 SessionSettings session_settings(const Options& options, bool still) {

@@ -40,13 +40,6 @@ void help_on_hover(const Field& field) {
     ImGui::EndTooltip();
 }
 
-/// Puts the next control on the line of the label that was just drawn.
-void begin_control() {
-    const float font = ImGui::GetFontSize();
-    ImGui::SameLine(7.7F * font);
-    ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - 2.0F * font);
-}
-
 const char* section_of(const Field& field) {
     if (field.pointer.starts_with("/grating")) return "Grating";
     if (field.pointer.starts_with("/film") || field.pointer.starts_with("/iridescence")) return "Film";
@@ -121,7 +114,7 @@ void draw_lines_per_mm(Document& document, ControlMap& controls) {
     double lines = pitch_nm > 0.0 ? lines_per_mm(pitch_nm) : 0.0;
     ImGui::AlignTextToFramePadding();
     ImGui::TextDisabled("  as lines");
-    begin_control();
+    begin_control(7.7F);
     ImGui::InputDouble("##lines", &lines, 0.0, 0.0, "%.6g /mm");
     controls.mark("lines per mm");
     if (ImGui::IsItemDeactivatedAfterEdit() && lines > 0.0) {
@@ -255,7 +248,7 @@ void MaterialPanel::draw_field(Document& document, const Field& field, ControlMa
     ImGui::AlignTextToFramePadding();
     ImGui::TextUnformatted(field.label.c_str());
     help_on_hover(field);
-    begin_control();
+    begin_control(7.7F);
     if (refused) {
         ImGui::PushStyleColor(ImGuiCol_Border, kRefused);
         ImGui::PushStyleVar(ImGuiStyleVar_FrameBorderSize, 2.0F);

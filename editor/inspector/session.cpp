@@ -1,18 +1,15 @@
 #include "editor/inspector/session.h"
 
 #include <fmt/format.h>
-#include <spawn.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <chrono>
-#include <cstring>
 #include <future>
-#include <thread>
 #include <utility>
 #include <vector>
 
+#include "engine/core/child_process.h"
 #include "engine/core/error.h"
+#include "engine/core/system.h"
 
 namespace rowland::inspector {
 
@@ -24,25 +21,9 @@ PreviewShape shape_of_preset(const std::string& name) {
     return name.starts_with("cd") || name == "dvd" ? PreviewShape::Disc : PreviewShape::Sheet;
 }
 
-/// Starts a program that lies beside this one. Returns its exit code when it ends, −1 if a signal ended it. Throws
-/// Error (system) if it cannot be started.
-std::future<int> start_beside(const char* name, std::vector<std::string> arguments) {
-    const auto program = std::filesystem::read_symlink("/proc/self/exe").parent_path() / name;
-    arguments.insert(arguments.begin(), program.string());
-    std::vector<char*> pointers;
-    for (std::string& argument : arguments) pointers.push_back(argument.data());
-    pointers.push_back(nullptr);
-    pid_t process = -1;
-    const int code = posix_spawn(&process, program.c_str(), nullptr, nullptr, pointers.data(), environ);
-    if (code != 0) fail_system(program.string(), std::strerror(code), "build or install it beside this program");
-    std::promise<int> exit_code;
-    std::future<int> result = exit_code.get_future();
-    std::thread([process, ended = std::move(exit_code)]() mutable {
-        int status = 0;
-        waitpid(process, &status, 0);
-        ended.set_value(WIFEXITED(status) ? WEXITSTATUS(status) : -1);
-    }).detach();
-    return result;
+/// Starts a program that lies beside this one, as start_program() does.
+std::future<int> start_beside(const char* name, const std::vector<std::string>& arguments) {
+    return start_program(program_file().parent_path() / name, arguments);
 }
 
 }  // namespace
@@ -105,7 +86,7 @@ void Session::open_in_demo() {
         std::vector<std::string> arguments = opened.demo_arguments();
         if (light.current())
             arguments.insert(arguments.end(), {"--probe", std::filesystem::absolute(light.current()->path).string()});
-        start_beside("rowland-demo", std::move(arguments));
+        start_beside("rowland-demo", arguments);
         messages.say("the demo starts");
     });
 }

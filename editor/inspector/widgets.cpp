@@ -65,6 +65,13 @@ glm::dvec3 in_gamut(const glm::dvec3& xyz) {
 
 }  // namespace
 
+void begin_control(float column) {
+    const float font = ImGui::GetFontSize();
+    const float label = ImGui::GetItemRectMax().x - ImGui::GetWindowPos().x + ImGui::GetScrollX();
+    ImGui::SameLine(std::max(column * font, label + 0.5F * font));
+    ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - 2.0F * font);
+}
+
 void draw_refusal(const std::string& message) {
     ImGui::PushTextWrapPos();
     ImGui::TextColored(kRefused, "%s", message.c_str());

@@ -20,6 +20,9 @@ namespace rowland::inspector {
 /// Colours that all kinds of colour vision distinguish [Okabe & Ito 2008]; lines also differ in their dashes.
 ImU32 series_colour(std::size_t index, float alpha = 1.0F);
 
+/// Puts the next control on the line of the label that was just drawn: at `column`, in heights of the font, or behind a
+/// longer label. Room stays for a button behind the control.
+void begin_control(float column);
 /// The colour of what is refused.
 inline const ImVec4 kRefused(0.95F, 0.60F, 0.15F, 1.0F);
 /// Draws the message of a refusal.

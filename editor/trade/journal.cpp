@@ -1,10 +1,7 @@
 #include "editor/trade/journal.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
-#include <cerrno>
-#include <cstring>
 #include <optional>
 #include <utility>
 
@@ -16,10 +13,6 @@ namespace rowland::trade {
 namespace {
 
 constexpr std::uint64_t kLargestJournal = std::uint64_t{1} << 31;
-
-[[noreturn]] void fail(const std::filesystem::path& path, const char* doing) {
-    fail_system(path.string(), fmt::format("{}: {}", doing, std::strerror(errno)));
-}
 
 FileLock open_alone(const std::filesystem::path& path) {
     if (path.has_parent_path()) create_folder(path.parent_path());
@@ -47,8 +40,7 @@ Journal::Journal(std::filesystem::path path) : path_(std::move(path)), file_(ope
         entries_[line["key"]] = line["value"];
         begin = end + 1;
     }
-    if (whole < text.size() && ::ftruncate(file_.descriptor(), static_cast<off_t>(whole)) != 0)
-        fail(path_, "cutting off an incomplete line");
+    if (whole < text.size()) file_.cut(whole);  // an incomplete line
 }
 
 const nlohmann::json* Journal::find(const std::string& key) const {
@@ -57,13 +49,7 @@ const nlohmann::json* Journal::find(const std::string& key) const {
 }
 
 void Journal::add(const std::string& key, nlohmann::json value) {
-    const std::string line = nlohmann::json{{"key", key}, {"value", value}}.dump() + "\n";
-    for (std::size_t written = 0; written < line.size();) {
-        const ssize_t count = ::write(file_.descriptor(), line.data() + written, line.size() - written);
-        if (count < 0 && errno == EINTR) continue;
-        if (count < 0) fail(path_, "writing");
-        written += static_cast<std::size_t>(count);
-    }
+    file_.append(nlohmann::json{{"key", key}, {"value", value}}.dump() + "\n");
     entries_[key] = std::move(value);
 }
 

@@ -13,6 +13,7 @@
 #include "engine/core/error.h"
 #include "engine/core/json_reader.h"
 #include "engine/core/program.h"
+#include "engine/core/system.h"
 
 namespace rowland {
 
@@ -52,12 +53,14 @@ void check_command(const CLI::App& app, std::string_view word) {
 }  // namespace
 
 bool parse_command_line(CLI::App& app, int argc, const char* const* argv) {
-    const std::span arguments(argv, static_cast<std::size_t>(argc));
+    const std::vector<std::string> texts = utf8_arguments(argc, argv);
+    std::vector<const char*> arguments;
+    for (const std::string& text : texts) arguments.push_back(text.c_str());
     check_not_empty(app, arguments);
-    if (argc > 1) check_command(app, argv[1]);
+    if (arguments.size() > 1) check_command(app, arguments[1]);
     app.set_version_flag("--version", [&app] { return version_text(app.get_name()); });
     try {
-        app.parse(argc, argv);
+        app.parse(argc, arguments.data());
         return true;
     } catch (const CLI::Success& asked) {
         const bool version = asked.get_name() == "CallForVersion";

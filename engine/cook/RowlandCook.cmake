@@ -17,8 +17,11 @@
 #
 #   rowland_attach(truck SCENE truck.glb OUTPUT truck.glb GRATINGS Chrome materials/dvd.json  Badge materials/foil.json)
 #
-# The cooker is the target `rowland-cook`. An asset may be listed once in the whole build; who shares it depends on the
+# The cooker is the target `rowland-cook`, or the program that ROWLAND_COOKER names: one of this machine, for a build for
+# another system. An asset may be listed once in the whole build; who shares it depends on the
 # target that lists it.
+set(ROWLAND_COOKER "" CACHE FILEPATH "A program that cooks instead of the one that is built")
+
 function(rowland_cook_assets target)
   cmake_parse_arguments(PARSE_ARGV 1 ARG "" "" "ASSETS")
   if(ARG_UNPARSED_ARGUMENTS OR NOT ARG_ASSETS)
@@ -46,16 +49,25 @@ function(_rowland_own_output function target output)
   set_property(GLOBAL PROPERTY "ROWLAND_COOKED_BY_${output}" ${target})
 endfunction()
 
+function(_rowland_cooker variable)
+  set(cooker rowland-cook)
+  if(ROWLAND_COOKER)
+    set(cooker "${ROWLAND_COOKER}")
+  endif()
+  set(${variable} "${cooker}" PARENT_SCOPE)
+endfunction()
+
 function(_rowland_cook_asset target source output)
   _rowland_own_output(rowland_cook_assets ${target} "${output}")
   cmake_path(ABSOLUTE_PATH source OUTPUT_VARIABLE source_path)
   set(output_path "${ROWLAND_COOKED_DIR}/${output}")
   # Beside the build's own files, not beside the assets: those are shipped.
   set(depfile "${CMAKE_CURRENT_BINARY_DIR}/cook/${output}.d")
+  _rowland_cooker(cooker)
   add_custom_command(
     OUTPUT "${output_path}"
-    COMMAND rowland-cook cook "${source_path}" -o "${output_path}" --depfile "${depfile}"
-    DEPENDS rowland-cook "${source_path}"
+    COMMAND ${cooker} cook "${source_path}" -o "${output_path}" --depfile "${depfile}"
+    DEPENDS ${cooker} "${source_path}"
     DEPFILE "${depfile}"
     COMMENT "Cooking ${output}"
     VERBATIM)
@@ -81,10 +93,11 @@ function(rowland_attach target)
     list(APPEND materials --material "${material}" "${grating}")
     list(APPEND gratings "${grating}")
   endwhile()
+  _rowland_cooker(cooker)
   add_custom_command(
     OUTPUT "${output}"
-    COMMAND rowland-cook attach "${scene}" ${materials} -o "${output}" --depfile "${depfile}"
-    DEPENDS rowland-cook "${scene}" ${gratings}
+    COMMAND ${cooker} attach "${scene}" ${materials} -o "${output}" --depfile "${depfile}"
+    DEPENDS ${cooker} "${scene}" ${gratings}
     DEPFILE "${depfile}"
     COMMENT "Attaching gratings to ${ARG_OUTPUT}"
     VERBATIM)

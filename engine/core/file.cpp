@@ -1,27 +1,20 @@
 #include "engine/core/file.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/file.h>
-#include <sys/stat.h>
-#include <unistd.h>
 #include <xxhash.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <charconv>
-#include <cstdio>
-#include <cstdlib>
-#include <cstring>
 #include <limits>
 #include <map>
 #include <new>
-#include <random>
 #include <string>
 #include <system_error>
 #include <vector>
 
 #include "engine/core/error.h"
+#include "engine/core/system.h"
+#include "engine/core/system_file.h"
 #include "engine/core/text.h"
 
 namespace rowland {
@@ -54,56 +47,18 @@ Hash128 Hasher::digest() const {
 
 namespace {
 
-[[noreturn]] void fail_action(const std::filesystem::path& path, const char* action, int error_number) {
-    fail_system(path.string(), fmt::format("{} failed: {}", action, std::strerror(error_number)),
-                "check permissions and free space");
-}
-
-/// Throws Error (input) unless `path` can be a regular file: renaming a file over a device or a pipe would replace it.
-void require_no_device(const std::filesystem::path& path) {
-    if (!path.has_filename()) refuse_input(path.string(), "", "names a folder", "a file to write");
-    struct stat old = {};
-    if (::stat(path.c_str(), &old) == 0) {
-        if (!S_ISREG(old.st_mode))
-            refuse_input(path.string(), "", "exists and is not a regular file", "a file to write");
-        return;
-    }
-    // stat() stops at the first missing folder, so the names below it are checked one by one.
-    int code = errno;
-    for (const std::filesystem::path& name : path)
-        if (code == ENOENT && ::lstat(name.c_str(), &old) != 0 && errno == ENAMETOOLONG) code = errno;
-    if (code == ELOOP || code == ENAMETOOLONG) refuse_input(path.string(), "", std::strerror(code), "a file to write");
-}
-
-/// An open file descriptor.
-class Descriptor {
- public:
-    explicit Descriptor(int fd) : fd_(fd) {}
-    ~Descriptor() {
-        if (fd_ >= 0) ::close(fd_);
-    }
-    Descriptor(const Descriptor&) = delete;
-    Descriptor& operator=(const Descriptor&) = delete;
-    int get() const { return fd_; }
-
- private:
-    int fd_;
-};
-
 /// A regular file that is open for reading.
 class SourceFile {
  public:
     /// Throws Error (input) for what is no readable file, and for a file larger than `max_bytes`.
     SourceFile(const std::filesystem::path& path, std::uint64_t max_bytes, const std::string& remedy = "")
-        // Non-blocking: opening a pipe must not wait for a writer. It changes nothing for regular files.
-        : path_(path), file_(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY)) {
-        if (file_.get() < 0)
-            refuse_input(path.string(), "", fmt::format("cannot be opened: {}", std::strerror(errno)),
-                         "a readable file");
-        struct stat status = {};
-        if (::fstat(file_.get(), &status) != 0) fail_action(path, "stat", errno);
-        if (!S_ISREG(status.st_mode)) refuse_input(path.string(), "", "not a regular file", "a readable file");
-        size_ = static_cast<std::uint64_t>(status.st_size);
+        : path_(path), file_(OpenFile::for_reading(path, failure_)) {
+        if (!file_.is_open())
+            refuse_input(path.string(), "", fmt::format("cannot be opened: {}", failure_.message()), "a readable file");
+        const std::optional<std::uint64_t> size = file_.regular_size(failure_);
+        if (failure_) fail_action(path, "stat", failure_);
+        if (!size) refuse_input(path.string(), "", "not a regular file", "a readable file");
+        size_ = *size;
         if (size_ > max_bytes)
             refuse_input(path.string(), "", fmt::format("{} bytes", size_), fmt::format("at most {} bytes", max_bytes),
                          remedy);
@@ -113,20 +68,15 @@ class SourceFile {
 
     /// Fills `buffer`, or as much of it as the file still holds; returns the number of bytes read.
     std::size_t read(std::span<std::byte> buffer) {
-        std::size_t done = 0;
-        while (done < buffer.size()) {
-            const ssize_t count = ::read(file_.get(), buffer.data() + done, buffer.size() - done);
-            if (count < 0 && errno == EINTR) continue;
-            if (count < 0) fail_action(path_, "reading", errno);
-            if (count == 0) break;
-            done += static_cast<std::size_t>(count);
-        }
+        const std::size_t done = file_.read(buffer, failure_);
+        if (failure_) fail_action(path_, "reading", failure_);
         return done;
     }
 
  private:
     const std::filesystem::path& path_;
-    Descriptor file_;
+    std::error_code failure_;
+    OpenFile file_;
     std::uint64_t size_ = 0;
 };
 
@@ -138,91 +88,21 @@ Buffer read_whole(const std::filesystem::path& path, std::uint64_t max_bytes, co
     return data;
 }
 
-/// False, with errno set, if not everything could be written.
-bool write_all(int fd, std::span<const std::byte> data) {
-    while (!data.empty()) {
-        const ssize_t count = ::write(fd, data.data(), data.size());
-        if (count >= 0)
-            data = data.subspan(static_cast<std::size_t>(count));
-        else if (errno != EINTR)
-            return false;
-    }
-    return true;
-}
-
-/// A new file that replaces `target` once it is complete; if it is destroyed before, the old file stays and the new one
-/// is removed. Where the file system supports O_TMPFILE the file has no name while it is written, so that a killed
-/// program leaves nothing. Its permissions follow the user's umask. (mkstemp's files are private, and the umask cannot
-/// be read without setting it for all threads.)
-class Replacement {
- public:
-    explicit Replacement(const std::filesystem::path& target)
-        : target_(target),
-          folder_(target.has_parent_path() ? target.parent_path() : std::filesystem::path(".")),
-          file_(create()) {}
-    ~Replacement() {
-        if (!temporary_.empty()) ::unlink(temporary_.c_str());
-    }
-    Replacement(const Replacement&) = delete;
-    Replacement& operator=(const Replacement&) = delete;
-
-    void write(std::span<const std::byte> data) const {
-        if (!write_all(file_.get(), data)) fail_action(target_, "writing", errno);
-    }
-
-    void replace_target() {
-        if (::fsync(file_.get()) != 0) fail_action(target_, "writing", errno);
-        if (temporary_.empty()) {
-            const std::string nameless = fmt::format("/proc/self/fd/{}", file_.get());
-            take_new_name([&](const char* name) {
-                return ::linkat(AT_FDCWD, nameless.c_str(), AT_FDCWD, name, AT_SYMLINK_FOLLOW);
-            });
-        }
-        if (std::rename(temporary_.c_str(), target_.c_str()) != 0) fail_action(target_, "renaming", errno);
-        temporary_.clear();
-    }
-
- private:
-    int create() {
-        // A nameless file gets its name through /proc.
-        const bool can_be_named = ::access("/proc/self/fd", X_OK) == 0;
-        const int fd = can_be_named ? ::open(folder_.c_str(), O_WRONLY | O_TMPFILE | O_CLOEXEC, 0666) : -1;
-        if (fd >= 0) return fd;
-        return take_new_name(
-            [](const char* name) { return ::open(name, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666); });
-    }
-
-    /// `make(name)` creates the file; it returns a negative number, with errno EEXIST, if the name is taken.
-    template <typename Make>
-    int take_new_name(const Make& make) {
-        std::random_device random;
-        for (int attempt = 0;; ++attempt) {
-            const std::filesystem::path name = folder_ / fmt::format(".rowland-{:08x}{:08x}", random(), random());
-            const int result = make(name.c_str());
-            if (result >= 0) {
-                temporary_ = name;
-                return result;
-            }
-            if (errno != EEXIST || attempt == 100) fail_action(target_, "creating a temporary file beside it", errno);
-        }
-    }
-
-    const std::filesystem::path& target_;
-    std::filesystem::path folder_;
-    std::filesystem::path temporary_;  ///< path of the new file while it has a name
-    Descriptor file_;
-};
-
 }  // namespace
 
+void fail_action(const std::filesystem::path& path, const char* action, const std::error_code& reason) {
+    fail_system(path.string(), fmt::format("{} failed: {}", action, reason.message()),
+                "check permissions and free space");
+}
+
 std::uint64_t memory_limit(const char* name, std::uint64_t least, std::uint64_t most) {
-    const char* value = std::getenv(name);
+    const std::optional<std::string> value = environment_variable(name);
     std::uint64_t mebibytes = least;
-    if (value != nullptr) {
-        const char* const end = value + std::strlen(value);
-        const auto [read, code] = std::from_chars(value, end, mebibytes);
+    if (value) {
+        const char* const end = value->data() + value->size();
+        const auto [read, code] = std::from_chars(value->data(), end, mebibytes);
         if (code != std::errc() || read != end || mebibytes < least || mebibytes > most)
-            refuse_input(name, "", fmt::format("\"{:.40}\"", value),
+            refuse_input(name, "", fmt::format("\"{:.40}\"", *value),
                          fmt::format("a number of MiB from {} to {}", least, most));
     }
     return mebibytes << 20;
@@ -264,7 +144,7 @@ std::optional<Hash128> hash_file(const std::filesystem::path& path) {
 void create_folder(const std::filesystem::path& path) {
     std::error_code code;
     std::filesystem::create_directories(path, code);
-    if (code) fail_action(path, "creating the folder", code.value());
+    if (code) fail_action(path, "creating the folder", code);
 }
 
 void write_file_atomic(const std::filesystem::path& path, std::span<const std::span<const std::byte>> parts) {
@@ -283,30 +163,42 @@ void write_file_atomic(const std::filesystem::path& path, std::string_view text)
     write_file_atomic(path, std::as_bytes(std::span(text.data(), text.size())));
 }
 
+FileLock::FileLock(std::filesystem::path path, std::unique_ptr<OpenFile> file)
+    : path_(std::move(path)), file_(std::move(file)) {}
+
+FileLock::FileLock(FileLock&& other) noexcept = default;
+
+FileLock::~FileLock() = default;
+
 std::optional<FileLock> FileLock::try_take(const std::filesystem::path& file) {
-    FileLock lock(::open(file.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0666));
-    if (lock.descriptor_ < 0) fail_action(file, "opening", errno);
-    while (::flock(lock.descriptor_, LOCK_EX | LOCK_NB) != 0) {
-        if (errno == EWOULDBLOCK) return std::nullopt;
-        if (errno != EINTR) break;
-    }
-    return lock;
+    std::error_code failure;
+    auto opened = std::make_unique<OpenFile>(OpenFile::for_appending(file, failure));
+    if (failure) fail_action(file, "opening", failure);
+    if (!opened->try_lock()) return std::nullopt;
+    return FileLock(file, std::move(opened));
 }
 
-FileLock::~FileLock() {
-    if (descriptor_ >= 0) ::close(descriptor_);
+void FileLock::append(std::string_view text) {
+    std::error_code failure;
+    file_->write(std::as_bytes(std::span(text.data(), text.size())), failure);
+    if (failure) fail_action(path_, "writing", failure);
+}
+
+void FileLock::cut(std::uint64_t size) {
+    std::error_code failure;
+    file_->cut(size, failure);
+    if (failure) fail_action(path_, "shortening", failure);
 }
 
 namespace {
 
-/// Two paths lead to one file exactly if they have a key in common: the path without links, or the inode.
+/// Two paths lead to one file exactly if they have a key in common: the path without links, or the identity.
 std::vector<std::string> keys_of(const std::filesystem::path& path) {
     std::error_code code;
     const std::filesystem::path canonical =
         std::filesystem::weakly_canonical(std::filesystem::absolute(path, code), code);
     std::vector<std::string> keys{code ? path.string() : canonical.string()};
-    struct stat status = {};
-    if (::stat(path.c_str(), &status) == 0) keys.push_back(fmt::format("{}:{}", status.st_dev, status.st_ino));
+    if (const auto identity = file_identity(path)) keys.push_back(*identity);
     return keys;
 }
 

@@ -8,7 +8,6 @@
 #include <span>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 struct XXH3_state_s;  // of xxhash.h
@@ -66,8 +65,10 @@ void write_file_atomic(const std::filesystem::path& path, std::string_view text)
 /// The same with content that lies in parts.
 void write_file_atomic(const std::filesystem::path& path, std::span<const std::span<const std::byte>> parts);
 
-/// An open file with a lock (flock) that only one FileLock holds at a time, across processes and network folders. The
-/// system releases it when the process ends in any way.
+class OpenFile;
+
+/// An open file with a lock that only one FileLock holds at a time, across processes and network folders. The system
+/// releases it when the process ends in any way. Others can read the file meanwhile.
 class FileLock {
  public:
     /// The lock, or nullopt if another process or another FileLock of this process holds it. On a file system without
@@ -75,16 +76,19 @@ class FileLock {
     /// cannot be opened.
     static std::optional<FileLock> try_take(const std::filesystem::path& file);
 
-    FileLock(FileLock&& other) noexcept : descriptor_(std::exchange(other.descriptor_, -1)) {}
+    FileLock(FileLock&& other) noexcept;
     FileLock& operator=(FileLock&&) = delete;
     ~FileLock();
 
-    /// Open for reading and for appending.
-    int descriptor() const { return descriptor_; }
+    /// Writes at the end of the file. Throws Error (system); then a part may be written.
+    void append(std::string_view text);
+    /// Shortens the file to its first `size` bytes. Throws Error (system).
+    void cut(std::uint64_t size);
 
  private:
-    explicit FileLock(int descriptor) : descriptor_(descriptor) {}
-    int descriptor_;
+    FileLock(std::filesystem::path path, std::unique_ptr<OpenFile> file);
+    std::filesystem::path path_;
+    std::unique_ptr<OpenFile> file_;
 };
 
 /// A file that a program is to write.

@@ -1,11 +1,12 @@
 #include "engine/core/log.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cstdio>
 #include <string>
+
+#include "engine/core/system.h"
 
 namespace rowland {
 
@@ -22,7 +23,7 @@ namespace {
 std::atomic<bool> one_is_visible{false};
 
 bool claim_line() {
-    return ::isatty(STDERR_FILENO) == 1 && !one_is_visible.exchange(true);
+    return error_stream_is_terminal() && !one_is_visible.exchange(true);
 }
 
 }  // namespace

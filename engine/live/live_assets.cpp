@@ -1,12 +1,12 @@
 #include "engine/live/live_assets.h"
 
-#include <cstdlib>
 #include <utility>
 
 #include "engine/asset/container.h"
 #include "engine/cook/cook_source.h"
 #include "engine/core/check.h"
 #include "engine/core/log.h"
+#include "engine/core/system.h"
 #include "engine/scene/cook.h"
 #include "engine/scene/gltf_import.h"
 
@@ -31,9 +31,7 @@ std::vector<std::byte> LiveAssets::payload(const cook::Registry& registry, const
 }
 
 std::filesystem::path default_cache_folder() {
-    for (const auto& [variable, below] : {std::pair("XDG_CACHE_HOME", "rowland"), std::pair("HOME", ".cache/rowland")})
-        if (const char* folder = std::getenv(variable); folder != nullptr && *folder != '\0')
-            return std::filesystem::path(folder) / below;
+    if (const auto folder = cache_folder()) return *folder / "rowland";
     return std::filesystem::temp_directory_path() / "rowland";
 }
 

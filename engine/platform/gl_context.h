@@ -42,10 +42,10 @@ struct HeadlessOptions {
     std::string gpu{};
 };
 
-/// An OpenGL 4.5 core context without a window: EGL, no surface, so everything is drawn into framebuffer objects. Takes
-/// the GPU that is asked for, or the first hardware device there is, or the software renderer; needs neither X nor
-/// Wayland. Current on the thread that made it, until another context is made current there; several may live in one
-/// process.
+/// An OpenGL 4.5 core context without a window, so everything is drawn into framebuffer objects. Takes the GPU that is
+/// asked for, or the first hardware device there is, or the software renderer. By EGL it needs neither X nor Wayland;
+/// on Windows the display's driver draws. Current on the thread that made it, until another context is made current
+/// there; several may live in one process.
 class HeadlessContext {
  public:
     /// Throws Error (system) that names what is missing if no device gives OpenGL 4.5 core, and Error (input) that

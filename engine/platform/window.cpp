@@ -2,11 +2,9 @@
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
-#include <dlfcn.h>
 
 #include <algorithm>
 #include <cstdint>
-#include <cstdlib>
 #include <glm/common.hpp>
 #include <memory>
 #include <optional>
@@ -16,8 +14,8 @@
 
 #include "engine/core/check.h"
 #include "engine/core/error.h"
-#include "engine/core/log.h"
 #include "engine/gpu/pipeline_state.h"
+#include "engine/platform/display.h"
 #include "engine/platform/gl_context.h"
 
 namespace rowland::platform {
@@ -54,35 +52,6 @@ std::string take_glfw_error() {
     return failed && description != nullptr ? description : "";
 }
 
-/// XErrorEvent of Xlib.h.
-struct XError {
-    int type;
-    void* display;
-    unsigned long resource;
-    unsigned long serial;
-    unsigned char code;
-    unsigned char request;
-    unsigned char minor;
-};
-
-int log_x_error(void* /*display*/, XError* error) {
-    log_warning("the X server refused request {} ({}) on {:#x}: error {}", error->request, error->minor,
-                error->resource, error->code);
-    return 0;
-}
-
-/// Xlib's own handler ends the program, for example if the source of a drag exits before GLFW answers it. GLFW 3.3
-/// restores that handler whenever it makes a window. Does nothing where GLFW does not use X.
-void survive_x_errors() {
-#if defined(__unix__) && !defined(__APPLE__)
-    static void* const x11 = ::dlopen("libX11.so.6", RTLD_LAZY | RTLD_NOLOAD);
-    if (x11 == nullptr) return;
-    using Handler = int (*)(void*, XError*);
-    using SetHandler = Handler (*)(Handler);
-    if (const auto set = reinterpret_cast<SetHandler>(::dlsym(x11, "XSetErrorHandler"))) set(log_x_error);
-#endif
-}
-
 }  // namespace
 
 /// GLFW is initialised while someone holds this. Main thread only.
@@ -97,7 +66,7 @@ class GlfwLibrary {
             reason = take_glfw_error();
             return nullptr;
         }
-        survive_x_errors();
+        survive_display_errors();
         std::shared_ptr<GlfwLibrary> library(new GlfwLibrary);
         running = library;
         return library;
@@ -224,11 +193,6 @@ GLFWwindow* open(const WindowOptions& options) {
     return handle;
 }
 
-bool announced(const char* variable) {
-    const char* value = std::getenv(variable);
-    return value != nullptr && *value != '\0';
-}
-
 struct Monitor {
     GLFWmonitor* handle = nullptr;
     const GLFWvidmode* mode = nullptr;
@@ -254,9 +218,7 @@ Monitor monitor_of(const ScreenArea& window) {
 }  // namespace
 
 bool display_available() {
-#if defined(__unix__) && !defined(__APPLE__)
-    if (!announced("DISPLAY") && !announced("WAYLAND_DISPLAY")) return false;
-#endif
+    if (!display_announced()) return false;
     // Kept for the window that is to open: a server that restarts when its last client leaves, as Xvfb does, may
     // refuse the next one.
     static std::shared_ptr<GlfwLibrary> kept;
@@ -285,7 +247,7 @@ Window::Window(const WindowOptions& options) : state_(std::make_unique<State>())
     ROWLAND_CHECK_OP(options.size.y, >=, 1);
     const std::string gpu = choose_gpu_of_windows(options.gpu);
     state_->handle = open(options);
-    survive_x_errors();
+    survive_display_errors();
     collect_events(state_->handle, state_->events);
     make_current();
     glfwSwapInterval(options.vsync ? 1 : 0);

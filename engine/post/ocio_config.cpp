@@ -4,7 +4,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <glm/glm.hpp>
 #include <glm/gtc/matrix_access.hpp>
 #include <optional>
@@ -17,6 +16,7 @@
 #include "engine/core/file.h"
 #include "engine/core/json_reader.h"
 #include "engine/core/log.h"
+#include "engine/core/system.h"
 #include "engine/post/computed_views.h"
 
 namespace OCIO = OCIO_NAMESPACE;
@@ -120,10 +120,9 @@ OcioConfig OcioConfig::from_file(const std::filesystem::path& path) {
 
 OcioConfig OcioConfig::choose(const std::optional<std::filesystem::path>& path) {
     if (path) return from_file(*path);
-    const char* variable = std::getenv("OCIO");
-    if (variable != nullptr && *variable != '\0') {
-        return from_named_file(variable, fmt::format("{} (named by $OCIO)", variable));
-    }
+    const auto variable = environment_variable("OCIO");
+    if (variable && !variable->empty())
+        return from_named_file(*variable, fmt::format("{} (named by $OCIO)", *variable));
     return shipped();
 }
 

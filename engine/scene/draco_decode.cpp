@@ -11,6 +11,7 @@
 
 #include "engine/core/check.h"
 #include "engine/core/error.h"
+#include "engine/core/program.h"
 
 namespace rowland::scene {
 

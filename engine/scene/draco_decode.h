@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/core/program.h"
+#include "engine/core/child_process.h"
 #include "engine/scene/draco_exchange.h"
 #include "engine/scene/gltf_source.h"
 

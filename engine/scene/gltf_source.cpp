@@ -201,7 +201,7 @@ std::filesystem::path relative_path_of_uri(const std::string& file, const std::s
         name.find('\\') != std::string::npos)
         refuse_input(file, pointer, fmt::format("URI \"{:.60}\"", uri), expected, kFileRemedy);
     std::filesystem::path path = std::filesystem::path(name).lexically_normal();
-    if (path.is_absolute() || *path.begin() == "..")
+    if (path.has_root_path() || *path.begin() == "..")
         refuse_input(file, pointer, fmt::format("URI \"{:.60}\", outside the glTF's folder", uri), expected,
                      kFileRemedy);
     return path;

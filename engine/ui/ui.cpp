@@ -11,6 +11,7 @@
 
 #include "engine/core/check.h"
 #include "engine/core/log.h"
+#include "engine/core/system.h"
 
 namespace rowland::ui {
 
@@ -159,17 +160,25 @@ ImGuiStyle make_style(float scale) {
     return style;
 }
 
+/// DejaVu Sans: of the system, or in the folder fonts beside the program's.
+std::string font_file() {
+    const std::filesystem::path system = ROWLAND_UI_FONT;
+    std::error_code ignored;
+    if (std::filesystem::is_regular_file(system, ignored)) return system.string();
+    return (program_file().parent_path().parent_path() / "fonts" / system.filename()).string();
+}
+
 /// Loads the font at `scale`: DejaVu Sans with Greek letters, arrows and mathematical signs; or ImGui's own, with Latin
 /// letters only, if the system does not have it.
 void load_font(ImGuiIO& io, float scale) {
     io.Fonts->Clear();
     // Checked first, since ImGui asserts that the file exists.
     std::error_code ignored;
-    if (std::filesystem::is_regular_file(ROWLAND_UI_FONT, ignored) &&
-        io.Fonts->AddFontFromFileTTF(ROWLAND_UI_FONT, std::round(kFontSize * scale), nullptr, kGlyphs.data()) !=
-            nullptr)
+    const std::string file = font_file();
+    if (std::filesystem::is_regular_file(file, ignored) &&
+        io.Fonts->AddFontFromFileTTF(file.c_str(), std::round(kFontSize * scale), nullptr, kGlyphs.data()) != nullptr)
         return;
-    log_warning("{} is missing: text of the user interface has Latin letters only", ROWLAND_UI_FONT);
+    log_warning("{} is missing: text of the user interface has Latin letters only", file);
     ImFontConfig config;
     config.SizePixels = std::round(kBuiltInFontSize * scale);
     io.Fonts->AddFontDefault(&config);

@@ -17,6 +17,7 @@
 #include "engine/platform/gl_context.h"
 #include "modules/diffraction/runtime/diffraction_surface.h"
 #include "tests/demo/demo_session.h"
+#include "tests/support/environment.h"
 
 namespace rowland {
 namespace {
@@ -74,7 +75,7 @@ bool all_finite(const gpu::Framebuffer& picture) {
 
 TEST(DemoLongPlay, HoldsItsMemoryAndDrawsFinitePixelsWithoutAnOpenGlError) {
     // With threads of its own, llvmpipe keeps the deleted textures of as many frames as it once fell behind by.
-    setenv("LP_NUM_THREADS", "0", 1);
+    test::set_variable("LP_NUM_THREADS", "0");
     const platform::HeadlessContext context({.debug = true});
     gpu::enable_debug_output(true);  // an error ends the program
     const post::OcioConfig config = post::OcioConfig::choose(std::nullopt);

@@ -106,7 +106,7 @@ TEST_F(SweepFaults, OnAFullDiskItStopsWithAClearLineAndGoesOnWhenThereIsRoom) {
     const std::filesystem::path results = disk.path() / "results";
     const Ended full = test::run(sweep_to(results));
     EXPECT_EQ(full.code, 1);
-    EXPECT_THAT(full.err, AllOf(HasSubstr(results.string()), HasSubstr(".jsonl: writing: No space left on device")));
+    EXPECT_THAT(full.err, AllOf(HasSubstr(results.string()), HasSubstr(".jsonl: writing failed: No space left on device")));
     EXPECT_FALSE(std::filesystem::exists(results / "sweep.csv"));
     const std::string kept = text(results / "references.jsonl");
     const std::string whole_lines = kept.substr(0, kept.rfind('\n') + 1);

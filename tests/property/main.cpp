@@ -11,6 +11,8 @@
 #include <random>
 #include <string>
 
+#include "engine/core/system.h"
+
 namespace {
 
 constexpr const char* kFixedSeed = "2006";  // the year of Lindsay & Agu
@@ -36,7 +38,7 @@ int main(int argc, char** argv) {
     const char* const runs = std::getenv("ROWLAND_TEST_ALL") == nullptr ? kQuickRuns : kAllRuns;
     const std::string parameters =
         fmt::format("seed={} max_success={}", seed(), setting("ROWLAND_PROPERTY_RUNS", runs));
-    setenv("RC_PARAMS", parameters.c_str(), 0);
+    rowland::set_default_variable("RC_PARAMS", parameters);
     const int result = RUN_ALL_TESTS();
     if (result != 0) fmt::print(stderr, "to run the same again: RC_PARAMS=\"{}\"\n", std::getenv("RC_PARAMS"));
     return result;

@@ -1,15 +1,18 @@
 #include "tests/support/files.h"
 
+#include <fmt/format.h>
+
 #include <cstdlib>
-#include <stdexcept>
+#include <random>
 #include <string_view>
 
 namespace rowland::test {
 
 TemporaryFolder::TemporaryFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "rowland-test-XXXXXX").string();
-    if (::mkdtemp(name.data()) == nullptr) throw std::runtime_error("cannot create a temporary folder");
-    path_ = name;
+    std::random_device random;
+    do {
+        path_ = std::filesystem::temp_directory_path() / fmt::format("rowland-test-{:08x}{:08x}", random(), random());
+    } while (!std::filesystem::create_directory(path_));  // false: another test has the name
 }
 
 TemporaryFolder::~TemporaryFolder() {

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <epoxy/egl.h>
 #include <epoxy/gl.h>
 
 #include <string>
@@ -8,6 +7,7 @@
 #include <utility>
 
 #include "engine/core/check.h"
+#include "tests/support/environment.h"
 
 namespace rowland::test {
 
@@ -20,7 +20,7 @@ class ReplacedFunction {
 
     /// `name`: the function's, as "glFinish". A context is current.
     ReplacedFunction(const char* name, Function replacement) {
-        driver = reinterpret_cast<Function>(eglGetProcAddress(name));
+        driver = reinterpret_cast<Function>(driver_function(name));
         ROWLAND_CHECK(driver != nullptr, "a driver of OpenGL 4.5");
         before_ = std::exchange(*Pointer, replacement);
     }

@@ -17,7 +17,7 @@ constexpr auto kLimit = 180s;
 constexpr int kSeen = 2;
 
 Command inspector_command(const std::filesystem::path& folder, Command arguments) {
-    arguments.insert(arguments.begin(), ROWLAND_INSPECTOR);
+    arguments.insert(arguments.begin(), program_to_try("ROWLAND_TEST_INSPECTOR", ROWLAND_INSPECTOR));
     arguments.insert(arguments.end(),
                      {"--controls", folder / "controls", "--layout", folder / "layout.json", "--size", "960x600"});
     return arguments;

@@ -149,8 +149,9 @@ TEST_F(PlayWindow, ARecordingPlaysAgainToTheSameStateWithAndWithoutAWindow) {
         recorded = state_in(user.leave());
     }
     ASSERT_THAT(recorded, HasSubstr("state "));
-    const test::Ended headless = test::run({ROWLAND_DEMO, "--disc", "--width", "96", "--height", "54",
-                                            "--output-folder", folder_.path(), "--play", file, "--headless"});
+    const test::Ended headless =
+        test::run({test::program_to_try("ROWLAND_TEST_PLAYER", ROWLAND_DEMO), "--disc", "--width", "96", "--height",
+                   "54", "--output-folder", folder_.path(), "--play", file, "--headless"});
     ASSERT_EQ(headless.code, 0) << headless.err;
     EXPECT_EQ(state_in(headless.err), recorded);
     EXPECT_TRUE(std::filesystem::exists(path("play.png")));

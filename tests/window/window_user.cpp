@@ -7,6 +7,8 @@
 #include <thread>
 #include <utility>
 
+#include "engine/core/system.h"
+
 namespace rowland::test {
 
 bool wait_until(const std::function<bool()>& done, std::chrono::seconds limit) {
@@ -16,6 +18,10 @@ bool wait_until(const std::function<bool()>& done, std::chrono::seconds limit) {
         std::this_thread::sleep_for(20ms);
     }
     return true;
+}
+
+std::string program_to_try(const char* variable, const char* built) {
+    return environment_variable(variable).value_or(built);
 }
 
 WindowUser::WindowUser(glm::ivec2 screen, const Command& program, const std::string& title, Surroundings surroundings)

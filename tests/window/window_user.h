@@ -13,6 +13,9 @@ using std::chrono_literals::operator""s;
 /// Asks every few milliseconds until `done` is true; false if that takes longer than `limit`.
 bool wait_until(const std::function<bool()>& done, std::chrono::seconds limit);
 
+/// The program that an environment variable names in place of the one that was built here: of another system, say.
+std::string program_to_try(const char* variable, const char* built);
+
 /// A program in a window of a virtual display, and its user with mouse and keyboard. Positions are pixels from the
 /// window's upper left corner; keys are named as xdotool names them ("ctrl+z").
 class WindowUser {

@@ -9,6 +9,7 @@
 #include "content/demo/assets.h"
 #include "content/demo/hud/windows.h"
 #include "content/demo/play/body.h"
+#include "engine/core/system.h"
 #include "engine/platform/input.h"
 #include "modules/diffraction/evaluate/point_shader.h"
 #include "modules/diffraction/representations/representation.h"

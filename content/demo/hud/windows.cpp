@@ -2,11 +2,9 @@
 
 #include <fmt/format.h>
 #include <imgui.h>
-#include <unistd.h>
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <fstream>
 #include <vector>
 
 #include "content/demo/play/action.h"
@@ -109,14 +107,6 @@ void draw_label(ImDrawList* list, float x, float y, const std::string& text, boo
 }
 
 }  // namespace
-
-std::size_t resident_set_bytes() {
-    std::ifstream file("/proc/self/statm");
-    std::size_t all_pages = 0;
-    std::size_t resident_pages = 0;
-    if (!(file >> all_pages >> resident_pages)) return 0;
-    return resident_pages * static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
-}
 
 std::string format_bytes(std::size_t bytes) {
     constexpr std::array kUnits = {"B", "KiB", "MiB", "GiB", "TiB"};

@@ -32,9 +32,6 @@ std::optional<double> wipe_handle(float line, const std::string& left, const std
 /// Draws a line at the bottom with the most important keys.
 void key_hints();
 
-/// Resident set size of the process; 0 where the system does not say.
-std::size_t resident_set_bytes();
-
 /// "812 B", "3.4 KiB", "56 MiB": at most three significant digits.
 std::string format_bytes(std::size_t bytes);
 

@@ -184,10 +184,10 @@ std::string Play::fingerprint() const {
     Hasher hasher;
     const auto add = [&](const auto&... values) { (hasher.bytes(std::as_bytes(std::span(&values, 1))), ...); };
     const scene::Camera seen_from = camera();
-    add(steps_, time_s_, turn_, seen_from.eye, seen_from.target);
+    add(steps_, time_s_, static_cast<float>(turn_), seen_from.eye, seen_from.target);
     for (const Body& body : toys_.bodies) {
         hasher.text(body.name);
-        add(object_to_world(world_, body.node), body.state.spin);
+        add(object_to_world(world_, body.node), glm::vec3(body.state.spin));
     }
     for (const ecs::Entity light : lights_.entities()) add(object_to_world(world_, light));
     return hasher.digest().hex().substr(0, 16);

@@ -92,7 +92,8 @@ class Play {
     const std::vector<Body>& bodies() const { return toys_.bodies; }
     std::optional<std::size_t> held_body() const;
     const PlayerLights& lights() const { return lights_; }
-    /// A short hash, to the bit, of the poses of all bodies, added lights and the camera, of spins, time and steps.
+    /// A short hash of the poses of all bodies, added lights and the camera, of spins, time and steps: to the last bit of
+    /// floats, as the last bits of doubles depend on the C library.
     std::string fingerprint() const;
     ecs::World& world() { return world_; }
     const Toys& toys() const { return toys_; }

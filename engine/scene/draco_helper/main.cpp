@@ -2,14 +2,9 @@
 // does no harm, because the importer ends this process and refuses the file.
 #include <draco/compression/decode.h>
 #include <draco/mesh/mesh.h>
-#include <sys/prctl.h>
-#include <sys/resource.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <csignal>
 #include <cstddef>
-#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <exception>
@@ -19,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/core/helper_process.h"
 #include "engine/scene/draco_exchange.h"
 
 namespace {
@@ -30,12 +26,11 @@ using rowland::scene::DracoRequest;
 
 // receive() and send() exchange bytes with the importer. If it has ended, they end this process.
 void receive(void* data, std::size_t size) {
-    if (std::fread(data, 1, size, stdin) != size) std::_Exit(0);
+    if (!rowland::receive_from_starter(data, size)) std::_Exit(0);
 }
 
 void send(const void* data, std::size_t size) {
-    static std::FILE* const importer = fdopen(STDIN_FILENO, "w");
-    if (std::fwrite(data, 1, size, importer) != size || std::fflush(importer) != 0) std::_Exit(0);
+    if (!rowland::send_to_starter(data, size)) std::_Exit(0);
 }
 
 template <typename Value>
@@ -43,17 +38,8 @@ void send(const std::vector<Value>& values) {
     send(values.data(), values.size() * sizeof(Value));
 }
 
-/// Sets the soft limit only, since an unprivileged process could not raise the hard one again.
-void limit(int resource, rlim_t most) {
-    const auto kind = static_cast<__rlimit_resource>(resource);
-    rlimit limits{};
-    if (getrlimit(kind, &limits) != 0) std::_Exit(1);
-    limits.rlim_cur = std::min(most, limits.rlim_max);
-    if (setrlimit(kind, &limits) != 0) std::_Exit(1);
-}
-
 std::unique_ptr<draco::Mesh> decode(const DracoRequest& request) {
-    limit(RLIMIT_AS, request.memory);
+    rowland::limit_memory(request.memory);
     std::vector<char> stream(request.size);
     receive(stream.data(), stream.size());
     draco::DecoderBuffer buffer;
@@ -174,9 +160,6 @@ class Helper {
 }  // namespace
 
 int main() {
-    // The importer may be killed while the decoder runs.
-    prctl(PR_SET_PDEATHSIG, SIGKILL);
-    std::signal(SIGPIPE, SIG_IGN);
-    limit(RLIMIT_CORE, 0);
+    rowland::prepare_helper();
     Helper().run();
 }

@@ -7,6 +7,7 @@
 
 #include "engine/gpu/pipeline_state.h"
 #include "tests/gpu/gl_test.h"
+#include "tests/support/environment.h"
 #include "tests/support/expect.h"
 
 namespace rowland {
@@ -108,10 +109,10 @@ TEST_F(ContextTest, AWrongChoiceListsTheGpus) {
     for (const char* wanted : {"no such", "99"}) {
         EXPECT_THAT(test::message_of([&] { const platform::HeadlessContext context({.gpu = wanted}); }),
                     AllOf(HasSubstr(fmt::format("no GPU \"{}\"", wanted)), HasSubstr(expected)));
-        setenv(platform::gpu_variable, wanted, 1);
+        test::set_variable(platform::gpu_variable, wanted);
         EXPECT_THAT(test::message_of([] { const platform::HeadlessContext context; }),
                     HasSubstr("ROWLAND_GPU: no GPU"));
-        unsetenv(platform::gpu_variable);
+        test::set_variable(platform::gpu_variable, std::nullopt);
     }
 }
 

@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include "tests/support/environment.h"
 #include "tests/support/expect.h"
 #include "tests/support/folder_test.h"
 
@@ -283,10 +284,10 @@ TEST_F(DocumentTest, EditsAreRescuedIfTheFolderWasRemoved) {
     document.set_value(pitch(), 740);
     std::filesystem::remove_all(path("here"));
     write_file_atomic(path("here"), "a file");
-    std::filesystem::create_directory(path("temporary"));
-    ::setenv("TMPDIR", path("temporary").c_str(), 1);
+    std::filesystem::create_directory(path("temporary").string());
+    test::set_variable("TMPDIR", path("temporary").string());
     EXPECT_EQ(document.rescue(), path("temporary/cd.unsaved.json"));
-    ::unsetenv("TMPDIR");
+    test::set_variable("TMPDIR", std::nullopt);
     EXPECT_EQ(Document::open(path("temporary/cd.unsaved.json")).json(), document.json());
 }
 

@@ -55,7 +55,7 @@ TEST(Error, OverlongFieldsAreShortenedBetweenCharacters) {
 
 TEST(CheckDeathTest, FailedComparisonPrintsBothOperands) {
     const int bands = 3;
-    EXPECT_DEATH(ROWLAND_CHECK_OP(bands, >=, 5), "error_test.cpp:[0-9]+: contract violated: bands >= 5 with 3 and 5");
+    EXPECT_DEATH(ROWLAND_CHECK_OP(bands, >=, 5), "error_test.cpp:.*: contract violated: bands >= 5 with 3 and 5");
 }
 
 TEST(CheckDeathTest, FailedConditionPrintsItsMessage) {

@@ -8,6 +8,7 @@
 #include "engine/image/byte_image.h"
 #include "engine/image/exr.h"
 #include "engine/image/image.h"
+#include "tests/support/environment.h"
 #include "tests/support/expect.h"
 #include "tests/support/files.h"
 #include "tests/unit/engine/image/image_bytes.h"
@@ -26,8 +27,8 @@ const auto kRefused = AllOf(HasSubstr("MiB to decode"), HasSubstr("ROWLAND_IMAGE
 /// Sets the variable while it lives.
 class MemoryVariable {
  public:
-    explicit MemoryVariable(const char* value) { setenv("ROWLAND_IMAGE_MEMORY", value, 1); }
-    ~MemoryVariable() { unsetenv("ROWLAND_IMAGE_MEMORY"); }
+    explicit MemoryVariable(const char* value) { test::set_variable("ROWLAND_IMAGE_MEMORY", value); }
+    ~MemoryVariable() { test::set_variable("ROWLAND_IMAGE_MEMORY", std::nullopt); }
     MemoryVariable(const MemoryVariable&) = delete;
     MemoryVariable& operator=(const MemoryVariable&) = delete;
 };

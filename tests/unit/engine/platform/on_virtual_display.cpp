@@ -2,6 +2,7 @@
 
 #include <cstdlib>
 
+#include "tests/support/environment.h"
 #include "tests/support/virtual_display.h"
 
 namespace rowland::platform {
@@ -13,8 +14,8 @@ class OnVirtualDisplay final : public testing::Environment {
         ROWLAND_NEEDS_VIRTUAL_DISPLAY();
         // Made before the driver is loaded, so that it ends after what the driver does at exit.
         static const test::VirtualDisplay display(ROWLAND_TEST_SCREEN_WIDTH, ROWLAND_TEST_SCREEN_HEIGHT);
-        setenv("DISPLAY", display.name().c_str(), 1);
-        unsetenv("WAYLAND_DISPLAY");
+        test::set_variable("DISPLAY", display.name());
+        test::set_variable("WAYLAND_DISPLAY", std::nullopt);
     }
 };
 

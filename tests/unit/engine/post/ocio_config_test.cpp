@@ -3,6 +3,7 @@
 #include <array>
 
 #include "engine/colour/colour_space.h"
+#include "tests/support/environment.h"
 #include "tests/support/expect.h"
 #include "tests/support/files.h"
 #include "tests/unit/engine/post/config_variant.h"
@@ -19,13 +20,13 @@ class OcioVariable {
  public:
     explicit OcioVariable(const std::string& value) {
         if (const char* before = std::getenv("OCIO")) before_ = before;
-        setenv("OCIO", value.c_str(), 1);
+        test::set_variable("OCIO", value);
     }
     ~OcioVariable() {
         if (before_) {
-            setenv("OCIO", before_->c_str(), 1);
+            test::set_variable("OCIO", *before_);
         } else {
-            unsetenv("OCIO");
+            test::set_variable("OCIO", std::nullopt);
         }
     }
     OcioVariable(const OcioVariable&) = delete;

@@ -7,6 +7,7 @@
 #include "engine/core/file.h"
 #include "engine/scene/glb_write.h"
 #include "engine/scene/mesh_recipe.h"
+#include "tests/support/environment.h"
 #include "tests/support/expect.h"
 #include "tests/support/files.h"
 
@@ -88,10 +89,10 @@ TEST(DracoProcess, AttributeThatIsNotThereIsRefused) {
 
 TEST(DracoProcess, MissingHelperIsTheSystemsFault) {
     const rowland::test::TemporaryFolder empty;
-    ASSERT_EQ(setenv("ROWLAND_HELPER_FOLDER", empty.path().c_str(), 1), 0);
+    rowland::test::set_variable("ROWLAND_HELPER_FOLDER", empty.path().string());
     EXPECT_THAT(rowland::test::message_of([] { DracoProcess().decode(stream_of(disc())); }, Fault::System),
                 HasSubstr("rowland-decode-draco: not in"));
-    ASSERT_EQ(unsetenv("ROWLAND_HELPER_FOLDER"), 0);
+    rowland::test::set_variable("ROWLAND_HELPER_FOLDER", std::nullopt);
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 
 #include "engine/core/file.h"
 #include "engine/scene/mesh_recipe.h"
+#include "tests/support/environment.h"
 #include "tests/support/expect.h"
 #include "tests/support/files.h"
 #include "tests/unit/engine/scene/hand_written_gltf.h"
@@ -229,11 +230,11 @@ TEST(GltfImport, AVariableRaisesTheMemoryOfAScene) {
     const auto asked = [] { MemoryBudget("a.glb").require_left(600, 1 << 20, "/meshes/0"); };
     EXPECT_THAT(rowland::test::message_of(asked),
                 testing::AllOf(HasSubstr("at most 536870912 bytes"), HasSubstr("ROWLAND_SCENE_MEMORY")));
-    setenv("ROWLAND_SCENE_MEMORY", "600", 1);
+    rowland::test::set_variable("ROWLAND_SCENE_MEMORY", "600");
     EXPECT_NO_THROW(asked());
-    setenv("ROWLAND_SCENE_MEMORY", "511", 1);
+    rowland::test::set_variable("ROWLAND_SCENE_MEMORY", "511");
     EXPECT_THAT(rowland::test::message_of(asked), HasSubstr("expected a number of MiB from 512 to 4095"));
-    unsetenv("ROWLAND_SCENE_MEMORY");
+    rowland::test::set_variable("ROWLAND_SCENE_MEMORY", std::nullopt);
 }
 
 TEST(GltfImport, NamingTheSameDataOftenDoesNotMultiplyMemoryWithoutLimit) {

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "engine/core/system.h"
+
 namespace rowland::demo {
 namespace {
 
