@@ -8,6 +8,7 @@
 #include "content/web/bake/exports.h"
 #include "engine/core/error.h"
 #include "modules/diffraction/foil/card_textures.h"
+#include "modules/diffraction/foil/thumbnail.h"
 
 namespace rowland {
 
@@ -39,6 +40,7 @@ struct Card {
     foil::CardTexels texels;
     foil::CardTextures textures;
     std::vector<std::byte> file;
+    std::vector<std::uint8_t> thumbnail;
 };
 
 ROWLAND_EXPORT(make_room) Card* make_room() {
@@ -54,29 +56,51 @@ void set_picture(Card* card, const char* name, std::size_t size, int width, int 
     std::free(rgba);
 }
 
+namespace {
+
+constexpr const char* kName = "recipe";
+
+/// Throws Error for a picture that the card lacks.
+foil::Recipe recipe_of(const Card& card, const char* json, std::size_t size) {
+    foil::Recipe recipe = foil::parse_foil_recipe(nlohmann::json::parse(std::string_view(json, size)), kName);
+    for (const std::string& picture : foil::picture_names(recipe))
+        if (!card.pictures.contains(picture))
+            refuse_input(picture, "", "no such picture", "one that the page has", "choose it again");
+    return recipe;
+}
+
+Numbers* size_of(int width, int height) {
+    return new Numbers{static_cast<float>(width), static_cast<float>(height)};
+}
+
+}  // namespace
+
 /// Draws the card of a recipe's JSON: width and height of its texels.
 ROWLAND_EXPORT(draw_card) Numbers* draw_card(Card* card, const char* json, std::size_t size) {
-    const std::string name = "recipe";
-    card->recipe = foil::parse_foil_recipe(nlohmann::json::parse(std::string_view(json, size)), name);
-    for (const std::string& picture : foil::picture_names(card->recipe))
-        if (!card->pictures.contains(picture))
-            refuse_input(picture, "", "no such picture", "one that the page has", "choose it again");
+    card->recipe = recipe_of(*card, json, size);
     card->textures = {};
-    card->texels = foil::card_texels(card->recipe, card->pictures, name);
-    const foil::FoilGrating grating = foil::foil_grating(card->recipe.foil);
-    return new Numbers{static_cast<float>(card->texels.area.width_px), static_cast<float>(card->texels.area.height_px),
-                       static_cast<float>(grating.pitch_nm), static_cast<float>(grating.spread_deg),
-                       static_cast<float>(grating.varies_pitch ? 1 : 0)};
+    card->texels = foil::card_texels(card->recipe, card->pictures, kName);
+    return size_of(card->texels.area.width_px, card->texels.area.height_px);
+}
+
+/// Draws the thumbnail of a recipe's JSON: its width and height.
+ROWLAND_EXPORT(draw_thumbnail)
+Numbers* draw_thumbnail(Card* card, const char* json, std::size_t size, int height) {
+    const foil::Thumbnail thumbnail(recipe_of(*card, json, size), card->pictures, kName, height);
+    card->thumbnail.resize(std::size_t{4} * static_cast<std::size_t>(thumbnail.width()) *
+                           static_cast<std::size_t>(thumbnail.height()));
+    thumbnail.draw(glm::mat3(1.0F), card->thumbnail);
+    return size_of(thumbnail.width(), thumbnail.height());
 }
 
 namespace {
 
-/// The texels of a texture: base colour, metallic and roughness, grooves, back; after these the file.
+/// The texels of a texture: base colour, metallic and roughness, grooves, back; after these the file and the thumbnail.
 std::span<const std::byte> part_of(const Card& card, int part) {
-    const std::array<std::span<const std::byte>, 5> parts = {
+    const std::array<std::span<const std::byte>, 6> parts = {
         std::as_bytes(std::span(card.texels.base_colour)), std::as_bytes(std::span(card.texels.metallic_roughness)),
         std::as_bytes(std::span(card.texels.grooves)), std::as_bytes(std::span(card.texels.back)),
-        std::span<const std::byte>(card.file)};
+        std::span<const std::byte>(card.file), std::as_bytes(std::span(card.thumbnail))};
     return parts.at(static_cast<std::size_t>(part));
 }
 
@@ -101,7 +125,7 @@ ROWLAND_EXPORT(set_texture) void set_texture(Card* card, int part, std::byte* pn
 
 /// Makes the file of the card that was drawn last, of the textures given since.
 ROWLAND_EXPORT(finish_card) void finish_card(Card* card) {
-    card->file = foil::card_file(card->recipe, card->texels, std::move(card->textures), "recipe");
+    card->file = foil::card_file(card->recipe, card->texels, std::move(card->textures), kName);
     card->textures = {};
 }
 

@@ -1,5 +1,5 @@
 import { TaskWorker } from "../three/src/task_worker.js";
-import { builtInArtwork, isBuiltIn, PAIR } from "./artworks.js";
+import { builtInArtwork, isBuiltIn } from "./artworks.js";
 import type { Thumbnail } from "./foil_worker.js";
 import { picturesOf, withType, type Recipe } from "./recipe.js";
 
@@ -94,16 +94,13 @@ export class FoilMaker {
         });
     }
 
-    /** A picture of a type's foil, for its button. */
-    thumbnail(type: string, side: number): Promise<Thumbnail> {
-        const paper = "blank";
-        if (!this.pictures.has(paper)) this.pictures.set(paper, new OffscreenCanvas(63, 88));
-        const recipe = withType({ artwork: paper, foil: { type } }, type);
-        if (type === "two_pictures") recipe.foil = { ...recipe.foil, picture_a: PAIR[0], picture_b: PAIR[1], cell_mm: 0.4 };
-        if (type === "own") recipe.foil.drawing = PAIR[0];
+    /** A picture of a type's foil on the recipe's artwork, for its button. `height`: in pixels. */
+    thumbnail(recipe: Recipe, type: string, height: number): Promise<Thumbnail> {
+        const typed = withType(recipe, type);
+        if (type === "two_pictures") typed.foil.cell_mm = 0.4; // finer cells than its texels show nothing
         return this.inTurn(async () => {
-            await this.send(recipe);
-            return this.worker.run<Thumbnail>("thumbnail", [JSON.stringify({ ...recipe, texture_px: 512 }), side]);
+            await this.send(typed);
+            return this.worker.run<Thumbnail>("thumbnail", [JSON.stringify(typed), height]);
         });
     }
 }

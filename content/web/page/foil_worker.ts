@@ -2,12 +2,13 @@
  *  asks for one after the other. */
 import { BakeModule } from "../three/src/module.js";
 import { encodePng } from "./png.js";
-import { shaded, type Facts } from "./thumbnail.js";
 
 /** As part_of() of content/web/bake/foil.cpp numbers them. */
 const GROOVES = 2;
 const FILE = 4;
+const THUMBNAIL = 5;
 
+/** RGBA. */
 export interface Thumbnail {
     rgba: Uint8ClampedArray<ArrayBuffer>;
     width: number;
@@ -24,7 +25,7 @@ async function load(): Promise<BakeModule> {
 const loading = load();
 loading.catch(() => {}); // each task says so
 let card = 0;
-let size: Facts = { width: 0, height: 0, pitch_nm: 0, spread_deg: 0, varies: false };
+let size = [0, 0];
 
 async function opened(): Promise<BakeModule> {
     const foil = await loading;
@@ -56,17 +57,16 @@ const tasks = {
     },
 
     /** Draws a recipe's card; then encode() its parts and finish() it. */
-    async draw(recipe: string): Promise<Facts> {
+    async draw(recipe: string): Promise<void> {
         const foil = await opened();
-        const [width, height, pitch_nm, spread_deg, varies] = withText(foil, recipe, (begin, length) => foil.numbers("draw_card", card, begin, length));
-        return (size = { width, height, pitch_nm, spread_deg, varies: varies === 1 });
+        size = withText(foil, recipe, (begin, length) => [...foil.numbers("draw_card", card, begin, length)]);
     },
 
     async encode(number: number): Promise<void> {
         const foil = await opened();
         const bytes = part(foil, number);
         if (bytes.length === 0) return;
-        const png = await encodePng(number === GROOVES ? new Uint16Array(bytes.buffer) : bytes, size.width, size.height);
+        const png = await encodePng(number === GROOVES ? new Uint16Array(bytes.buffer) : bytes, size[0], size[1]);
         foil.call("set_texture", card, number, foil.put(png), png.length);
     },
 
@@ -76,11 +76,11 @@ const tasks = {
         return part(foil, FILE);
     },
 
-    /** A small picture of a recipe's foil. */
-    async thumbnail(recipe: string, side: number): Promise<Thumbnail> {
-        const facts = await tasks.draw(recipe);
-        const grooves = part(await opened(), GROOVES);
-        return { rgba: shaded(new Uint16Array(grooves.buffer), facts, side), width: side, height: side };
+    /** A small picture of a recipe's card, for choosing. */
+    async thumbnail(recipe: string, height: number): Promise<Thumbnail> {
+        const foil = await opened();
+        const [width, rows] = withText(foil, recipe, (begin, length) => foil.numbers("draw_thumbnail", card, begin, length, height));
+        return { rgba: new Uint8ClampedArray(part(foil, THUMBNAIL).buffer), width, height: rows };
     },
 };
 

@@ -9,6 +9,7 @@ const FILE_TEXELS = 2048;
 /** As many as the screen shows; the dithered cells of two pictures would beat with fewer. */
 const shownTexels = (recipe: Recipe) => (recipe.foil.type === "two_pictures" || 0.75 * innerHeight * devicePixelRatio > 1100 ? FILE_TEXELS : 1024);
 const REST_MS = 350;
+const THUMBNAIL_HEIGHT = 134;
 /** Of an artwork that goes along in a link. */
 const LINK_SIDE = 420;
 const LINK_PICTURE = "artwork of the link";
@@ -79,6 +80,7 @@ export class StudioPanel {
     private wanted?: { recipe: Recipe; texels: number };
     private working = false;
     private resting = 0;
+    private typesOf = ""; // what the tiles of types show
     private linked?: string; // the artwork of the address that was opened
     private shared?: string; // the user's artwork for a link
 
@@ -99,8 +101,19 @@ export class StudioPanel {
         const { recipe } = this;
         this.build();
         await this.work(recipe, shownTexels(recipe));
+        await this.showTypes();
+    }
+
+    /** Draws the types on the artwork, unless it stands there. */
+    private async showTypes(): Promise<void> {
+        const { recipe } = this;
+        const artwork = JSON.stringify([recipe.artwork, recipe.mask, recipe.ink]);
+        if (artwork === this.typesOf) return;
+        this.typesOf = artwork;
+        this.root.dataset.thumbnails = "false";
         for (const label of this.types.querySelectorAll<HTMLLabelElement>(".tile")) {
-            const { rgba, width, height } = await this.maker.thumbnail(label.querySelector("input")!.value, 96);
+            const { rgba, width, height } = await this.maker.thumbnail(recipe, label.querySelector("input")!.value, THUMBNAIL_HEIGHT);
+            if (this.typesOf !== artwork) return;
             drawInto(label, await createImageBitmap(new ImageData(rgba, width, height)));
         }
         this.root.dataset.thumbnails = "true";
@@ -121,7 +134,7 @@ export class StudioPanel {
         void this.work(recipe, LIVE_TEXELS).catch(() => {});
         this.resting = window.setTimeout(() => {
             this.page.changed();
-            this.work(recipe, shownTexels(recipe)).catch(this.page.report);
+            this.work(recipe, shownTexels(recipe)).then(() => this.showTypes()).catch(this.page.report);
         }, live ? REST_MS : 0);
     }
 

@@ -24,6 +24,8 @@ const cases = [
     { ...named("direct"), ...LAMP, hand: "left", three: true },
     { ...named("arc"), hand: "right" },
     ...["planar, groove texture", "direct, groove texture", "arc, groove texture"].map((name) => ({ ...named(name), hand: "left", three: true })),
+    // Its program; what pixels that cover many facets show is tested with three, whose GLSL is the same.
+    { ...named("direct, groove texture"), name: "direct, groove texture that sparkles", hand: "left", three: true, sparkle: true },
 ].map((one) => (one.grooves ? { ...one, texels: texelsOf(one) } : one));
 const mirrors = ["left", "right"].flatMap((hand) => [0, 1.1].map((rotation) =>
     ({ ...named("direct"), frames: named("direct").frames.slice(0, 20), hand, rotation })));

@@ -116,7 +116,8 @@ const textureOf = (texels, scene) => RawTexture.CreateRGBATexture(Uint8Array.fro
     scene, false, false, Constants.TEXTURE_BILINEAR_SAMPLINGMODE);
 
 export async function radiance(engine, rowland, one) {
-    const { grating, representation, texels, mirrors, rotation } = one;
+    const { representation, texels, mirrors, rotation } = one;
+    const grating = one.sparkle ? { ...one.grating, grooveTexture: { index: 0, sparkle: true } } : one.grating;
     const { scene, mesh, draw } = pointsOf(engine, one);
     if (mirrors) {
         scene.environmentTexture = new HDRCubeTexture(mirrors, scene, 64);

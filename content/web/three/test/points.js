@@ -92,7 +92,8 @@ export async function picture({ renderer, Plain }, rowland, { grating, picture: 
     return pixelsOf(renderer, target, flipped);
 }
 
-export async function radiance({ renderer, Material }, rowland, { grating, representation, frames, lamp, texels, mirrored }) {
+export async function radiance({ renderer, Material }, rowland, { grating: given, representation, frames, lamp, texels, mirrored, sparkle }) {
+    const grating = sparkle ? { ...given, grooveTexture: { index: 0, sparkle } } : given;
     const scene = new THREE.Scene();
     const camera = new THREE.PerspectiveCamera();
     const material = new Material({ rowland, grating, representation, grooveTexture: texels && grooveTexture(texels),
