@@ -58,6 +58,9 @@ bool parse_command_line(CLI::App& app, int argc, const char* const* argv) {
     for (const std::string& text : texts) arguments.push_back(text.c_str());
     check_not_empty(app, arguments);
     if (arguments.size() > 1) check_command(app, arguments[1]);
+    // CLI11 by default takes /name for an option on Windows.
+    app.allow_windows_style_options(false);
+    for (CLI::App* command : app.get_subcommands({})) command->allow_windows_style_options(false);
     app.set_version_flag("--version", [&app] { return version_text(app.get_name()); });
     try {
         app.parse(argc, arguments.data());

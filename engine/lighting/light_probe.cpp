@@ -18,6 +18,7 @@
 #include "engine/core/check.h"
 #include "engine/core/error.h"
 #include "engine/lighting/environment_map.h"
+#include "engine/math/last_bits.h"
 #include "engine/math/spherical_harmonics.h"
 
 namespace rowland::lighting {
@@ -299,6 +300,7 @@ LightProbe build_light_probe(const ProbeImage& probe, const LightProbeSettings& 
     require_finite_sums(probe);
     LightProbe light;
     light.sh = project(probe, settings.bands);
+    math::drop_last_bits({&light.sh.coefficients.front().x, 3 * light.sh.coefficients.size()});
     light.illuminant = settings.illuminant;
     light.ambient = ambient_coefficients(light.sh);
     light.key_lights = fit_key_lights(probe, settings.key_lights, settings.key_light_fit);

@@ -5,6 +5,8 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
+#include "engine/math/last_bits.h"
+
 namespace rowland::diffraction::foil {
 
 namespace {
@@ -34,7 +36,8 @@ std::vector<OutlinePoint> outline_of(const CardShape& shape) {
         const glm::dvec2 centre = signs[static_cast<std::size_t>(corner)] * (half - radius);
         for (int step = 0; step <= steps; ++step) {
             const double angle = std::numbers::pi / 2.0 * (corner - 1 + static_cast<double>(step) / steps);
-            const glm::dvec2 outward(std::cos(angle), std::sin(angle));
+            glm::dvec2 outward(std::cos(angle), std::sin(angle));
+            math::drop_last_bits({&outward.x, 2});
             add(centre + radius * outward, outward);
         }
     }

@@ -9,6 +9,7 @@
 #include "engine/core/check.h"
 #include "engine/core/error.h"
 #include "engine/core/parallel.h"
+#include "engine/math/last_bits.h"
 #include "engine/math/spherical_harmonics.h"
 #include "modules/diffraction/bake/arc_moments.h"
 #include "modules/diffraction/bake/view_spectrum.h"
@@ -78,6 +79,15 @@ MatrixXd weighed(const MatrixXd& table, LightTerms terms, int bands) {
 MatrixXd leading_weights(const MatrixXd& table, Eigen::Index rank) {
     const Eigen::BDCSVD<MatrixXd> decomposition(table, Eigen::ComputeThinU);
     return decomposition.matrixU().leftCols(rank);
+}
+
+/// The index of the largest magnitude, the first of those that differ by rounding alone: mirrored views have equal
+/// ones.
+Eigen::Index largest_of(const Eigen::VectorXd& values) {
+    const double most = values.cwiseAbs().maxCoeff();
+    Eigen::Index first = 0;
+    while (std::abs(values(first)) < (1.0 - 1e-9) * most) ++first;
+    return first;
 }
 
 void put(const std::vector<glm::dmat3>& terms, std::span<const double> signs, Eigen::Index row, MatrixXd& table) {
@@ -152,17 +162,19 @@ ArcTable bake(const Grating& grating, const ArcSettings& settings) {
     MatrixXd weights = leading_weights(weighed(values, table.terms, table.bands), table.rank);
     // The weights' columns are orthonormal, so these are the best factors for them, whatever the light.
     MatrixXd factors = weights.transpose() * values;
+    std::vector<double> row(static_cast<std::size_t>(values.cols()));
     for (Eigen::Index r = 0; r < table.rank; ++r) {
-        Eigen::Index largest = 0;
-        weights.col(r).cwiseAbs().maxCoeff(&largest);
-        const double scale = weights(largest, r);
+        const double scale = weights(largest_of(weights.col(r)), r);
         weights.col(r) /= scale;
         factors.row(r) *= scale;
+        for (std::size_t i = 0; i < row.size(); ++i) row[i] = factors(r, static_cast<Eigen::Index>(i));
+        math::drop_last_bits(row);
         for (Eigen::Index k = 0; k < values.cols() / kTermColumns; ++k) {
             glm::mat3 factor;
             for (int c = 0; c < 3; ++c)
                 for (int o = 0; o < 3; ++o)
-                    factor[c][o] = static_cast<float>(factors(r, k * kTermColumns + Eigen::Index{3} * c + o));
+                    factor[c][o] =
+                        static_cast<float>(row[static_cast<std::size_t>(k * kTermColumns + Eigen::Index{3} * c + o)]);
             table.factors.push_back(factor);
         }
     }
