@@ -6,7 +6,7 @@
 
 namespace rowland::math {
 
-/// Rounds numbers to multiples of 2⁻⁴⁰ of a power of two above the largest magnitude. C libraries differ in the last
+/// Rounds numbers to multiples of 2⁻⁴⁴ of a power of two above the largest magnitude. C libraries differ in the last
 /// bits of their functions, and sums that are 0 in exact arithmetic consist of such bits: without them cooked files
 /// have the same bytes on all systems, but for numbers that lie at the middle between two multiples.
 inline void drop_last_bits(std::span<double> values) {
@@ -15,7 +15,7 @@ inline void drop_last_bits(std::span<double> values) {
     int exponent = 0;
     std::frexp(largest, &exponent);
     for (double& value : values)
-        value = std::ldexp(std::round(std::ldexp(value, 40 - exponent)), exponent - 40) + 0.0;  // no -0
+        value = std::ldexp(std::round(std::ldexp(value, 44 - exponent)), exponent - 44) + 0.0;  // no -0
 }
 
 }  // namespace rowland::math

@@ -9,6 +9,8 @@ set -euo pipefail
 [ $# -eq 1 ] || { sed -n '2,7s/^# //p' "$0" >&2; exit 2; }
 source=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 release=$source/build/release
+# OpenGL under Wine is the display's.
+[ -n "${DISPLAY:-}" ] || exec xvfb-run -a "$0" "$@"
 mkdir -p "$1"
 folder=$(cd "$1" && pwd)
 unpacked="$folder/Мои программы (new)"

@@ -26,8 +26,8 @@ for program in "${programs[@]}" rowland-decode-draco; do
     x86_64-w64-mingw32-strip -o "$package/bin/$program.exe" "$build/bin/$program.exe"
 done
 cp "$build/libexec/rowland/commit" "$package/bin/"
-# Recipes name captures that this machine has; the probes cooked from them go along.
-(cd "$release/cooked" && find . -type f -not -path './recipes/*' -exec cp --parents {} "$package/cooked" \;)
+# Recipes name captures that this machine has, whose cooked probes go along; scenes are those that somebody has opened here.
+(cd "$release/cooked" && find . -type f -not -path './recipes/*' -not -path './scenes/*' -exec cp --parents {} "$package/cooked" \;)
 for folder in foil gltf materials meshes ocio probes scenes textures; do cp -r "$root/content/$folder" "$package/content/"; done
 cp /usr/share/fonts/truetype/dejavu/DejaVuSans.ttf "$package/fonts/"
 cp "$ROWLAND_WINDOWS_CACHE"/libraries/licences/*.txt "$package/licences/"

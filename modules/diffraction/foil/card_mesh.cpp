@@ -61,8 +61,10 @@ scene::Mesh face_of(const CardShape& shape, const std::vector<OutlinePoint>& out
         add_vertex(mesh, {at, side * 0.5e-3 * shape.thickness_mm}, {0.0, 0.0, side}, {side, 0.0, 0.0}, uv);
     };
     add(glm::dvec2(0.0));
+    // Without those that stand where the one before them does, or the first.
+    const double whole = outline.back().length;
     for (std::size_t i = 0; i + 1 < outline.size(); ++i)
-        if (i == 0 || outline[i].length > outline[i - 1].length) add(outline[i].at);
+        if (i == 0 || (outline[i].length > outline[i - 1].length && outline[i].length < whole)) add(outline[i].at);
     const auto count = static_cast<std::uint32_t>(mesh.positions.size() - 1);
     for (std::uint32_t i = 0; i < count; ++i) {
         const std::uint32_t here = 1 + i;
