@@ -3,7 +3,7 @@
 # Runs the programs of build/rowland-windows.zip by Wine, unpacked below FOLDER into a folder whose name has spaces and Cyrillic
 # letters, beside those of build/release: pictures of the flight, cooked bytes, a report, a recording, and real clicks in the
 # inspector. A line each says how it went; FOLDER/*.log say why. Exits 1 if any failed.
-# Needs the two builds, wine64, xvfb, xauth, xdotool, imagemagick, unzip; some minutes.
+# Needs the two builds, blender-data, wine64, xvfb, xauth, xdotool, imagemagick, unzip; some minutes.
 # example: ./rowland windows && tests/systems/under_wine.sh /tmp/wine
 set -euo pipefail
 [ $# -eq 1 ] || { sed -n '2,7s/^# //p' "$0" >&2; exit 2; }
@@ -74,7 +74,7 @@ cooked() {
 
 report() {
     rm -rf report
-    windows rowland-trade report --material "$source/content/materials/cd.json" --probe "$source/content/probes/night.json" \
+    windows rowland-trade report --material "$source/content/materials/cd.json" --probe /usr/share/blender/datafiles/studiolights/world/night.exr \
         --setting direct --setting arc --picture-size 64 36 --frame-size 64 36 --output report
     [ -s report/report.html ]
 }
