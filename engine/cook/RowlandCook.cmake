@@ -18,8 +18,8 @@
 #   rowland_attach(truck SCENE truck.glb OUTPUT truck.glb GRATINGS Chrome materials/dvd.json  Badge materials/foil.json)
 #
 # The cooker is the target `rowland-cook`. An asset may be listed once in the whole build; who shares it depends on the
-# target that lists it. A build for another system, whose cooker does not run here, takes the assets of the build whose folder
-# of them ROWLAND_COOKED_FROM names.
+# target that lists it. A build for another system, whose cooker does not run here, uses the assets that another build has
+# cooked: ROWLAND_COOKED_FROM is the folder.
 set(ROWLAND_COOKED_FROM "" CACHE PATH "Cooked assets of another build, to use instead of cooking")
 if(ROWLAND_COOKED_FROM)
   file(CREATE_LINK "${ROWLAND_COOKED_FROM}" "${ROWLAND_COOKED_DIR}" SYMBOLIC)

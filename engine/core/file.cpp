@@ -8,6 +8,7 @@
 #include <limits>
 #include <map>
 #include <new>
+#include <random>
 #include <string>
 #include <system_error>
 #include <vector>
@@ -89,6 +90,15 @@ Buffer read_whole(const std::filesystem::path& path, std::uint64_t max_bytes, co
 }
 
 }  // namespace
+
+std::filesystem::path folder_of(const std::filesystem::path& file) {
+    return file.has_parent_path() ? file.parent_path() : std::filesystem::path(".");
+}
+
+std::filesystem::path temporary_name(const std::filesystem::path& target) {
+    std::random_device random;
+    return folder_of(target) / fmt::format(".rowland-{:08x}{:08x}", random(), random());
+}
 
 void fail_action(const std::filesystem::path& path, const char* action, const std::error_code& reason) {
     fail_system(path.string(), fmt::format("{} failed: {}", action, reason.message()),

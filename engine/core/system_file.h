@@ -69,6 +69,13 @@ void require_no_device(const std::filesystem::path& path);
 /// The same text for two paths that lead to one existing file, by whatever links; nullopt if there is none.
 std::optional<std::string> file_identity(const std::filesystem::path& path);
 
+/// The folder of a file; "." where the path names none.
+std::filesystem::path folder_of(const std::filesystem::path& file);
+/// A new name for a file beside `target`, which nobody else is likely to take.
+std::filesystem::path temporary_name(const std::filesystem::path& target);
+/// How often a name that somebody has taken is replaced by another before creating the file fails.
+constexpr int kMostTemporaryNames = 100;
+
 /// Throws Error (system): "path: ACTION failed: REASON".
 [[noreturn]] void fail_action(const std::filesystem::path& path, const char* action, const std::error_code& reason);
 

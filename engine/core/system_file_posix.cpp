@@ -6,7 +6,6 @@
 
 #include <cerrno>
 #include <cstdio>
-#include <random>
 
 #include "engine/core/error.h"
 #include "engine/core/system_file.h"
@@ -89,10 +88,7 @@ bool OpenFile::try_lock() const {
 /// nothing. Its permissions follow the user's umask. (mkstemp's files are private, and the umask cannot be read without
 /// setting it for all threads.)
 struct Replacement::State {
-    explicit State(const std::filesystem::path& replaced)
-        : target(replaced),
-          folder(target.has_parent_path() ? target.parent_path() : std::filesystem::path(".")),
-          file(create()) {}
+    explicit State(const std::filesystem::path& replaced) : target(replaced), file(create()) {}
     ~State() {
         if (!temporary.empty()) ::unlink(temporary.c_str());
     }
@@ -102,7 +98,7 @@ struct Replacement::State {
     int create() {
         // A nameless file gets its name through /proc.
         const bool can_be_named = ::access("/proc/self/fd", X_OK) == 0;
-        const int fd = can_be_named ? ::open(folder.c_str(), O_WRONLY | O_TMPFILE | O_CLOEXEC, 0666) : -1;
+        const int fd = can_be_named ? ::open(folder_of(target).c_str(), O_WRONLY | O_TMPFILE | O_CLOEXEC, 0666) : -1;
         if (fd >= 0) return fd;
         return take_new_name(
             [](const char* name) { return ::open(name, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666); });
@@ -111,21 +107,19 @@ struct Replacement::State {
     /// `make(name)` creates the file; it returns a negative number, with errno EEXIST, if the name is taken.
     template <typename Make>
     int take_new_name(const Make& make) {
-        std::random_device random;
         for (int attempt = 0;; ++attempt) {
-            const std::filesystem::path name = folder / fmt::format(".rowland-{:08x}{:08x}", random(), random());
+            const std::filesystem::path name = temporary_name(target);
             const int result = make(name.c_str());
             if (result >= 0) {
                 temporary = name;
                 return result;
             }
-            if (errno != EEXIST || attempt == 100)
+            if (errno != EEXIST || attempt == kMostTemporaryNames)
                 fail_action(target, "creating a temporary file beside it", last_failure());
         }
     }
 
     const std::filesystem::path& target;
-    std::filesystem::path folder;
     std::filesystem::path temporary;  ///< path of the new file while it has a name
     OpenFile file;
 };

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <random>
 #include <thread>
 
 #include "engine/core/error.h"
@@ -119,14 +118,11 @@ struct Replacement::State {
     State& operator=(const State&) = delete;
 
     OpenFile create() const {
-        const std::filesystem::path folder =
-            target.has_parent_path() ? target.parent_path() : std::filesystem::path(".");
-        std::random_device random;
         for (int attempt = 0;; ++attempt) {
-            const std::filesystem::path name = folder / fmt::format(".rowland-{:08x}{:08x}", random(), random());
-            OpenFile made = open_file(name, GENERIC_WRITE | DELETE, FILE_SHARE_READ | FILE_SHARE_DELETE, CREATE_NEW);
+            OpenFile made = open_file(temporary_name(target), GENERIC_WRITE | DELETE,
+                                      FILE_SHARE_READ | FILE_SHARE_DELETE, CREATE_NEW);
             if (made.is_open()) return made;
-            if (GetLastError() != ERROR_FILE_EXISTS || attempt == 100)
+            if (GetLastError() != ERROR_FILE_EXISTS || attempt == kMostTemporaryNames)
                 fail_action(target, "creating a temporary file beside it", last_windows_failure());
         }
     }

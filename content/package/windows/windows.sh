@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
 # Cross-compiles Rowland for 64-bit Windows and writes rowland-windows.zip: `./rowland windows`.
-# usage: windows.sh RELEASE [ZIP]    (RELEASE: the folder of a build for Linux with cooked content)
+# usage: windows.sh [ZIP]    (build/release has the cooked content, as the preset says)
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 root=$(cd "$here/../../.." && pwd)
-release=$1 zip=${2:-$root/build/rowland-windows.zip}
+zip=${1:-$root/build/rowland-windows.zip}
 export ROWLAND_WINDOWS_CACHE=${ROWLAND_WINDOWS_CACHE:-$root/build/windows-cache}
 build="$root/build/windows"
 programs=(rowland-demo rowland-inspector rowland-cook rowland-capture rowland-trade)
@@ -14,7 +14,7 @@ say() { printf '%s\n' "$*" >&2; }
 "$here/dependencies.sh" "$ROWLAND_WINDOWS_CACHE"
 mkdir -p "$build"
 say "building for Windows"
-{ cd "$root" && cmake --preset windows -DROWLAND_COOKED_FROM="$release/cooked" &&
+{ cd "$root" && cmake --preset windows &&
     cmake --build "$build" --target "${programs[@]}" rowland-decode-draco; } >"$build/build.log" 2>&1 ||
     { tail -n 40 "$build/build.log" >&2; say "error: the build failed: see $build/build.log"; exit 1; }
 
@@ -27,7 +27,7 @@ for program in "${programs[@]}" rowland-decode-draco; do
 done
 cp "$build/libexec/rowland/commit" "$package/bin/"
 # Recipes name captures that this machine has, whose cooked probes go along; scenes are those that somebody has opened here.
-(cd "$release/cooked" && find . -type f -not -path './recipes/*' -not -path './scenes/*' -exec cp --parents {} "$package/cooked" \;)
+(cd "$root/build/release/cooked" && find . -type f -not -path './recipes/*' -not -path './scenes/*' -exec cp --parents {} "$package/cooked" \;)
 for folder in foil gltf materials meshes ocio probes scenes textures; do cp -r "$root/content/$folder" "$package/content/"; done
 cp /usr/share/fonts/truetype/dejavu/DejaVuSans.ttf "$package/fonts/"
 cp "$ROWLAND_WINDOWS_CACHE"/libraries/licences/*.txt "$package/licences/"
