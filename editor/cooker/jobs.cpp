@@ -111,8 +111,8 @@ std::string write_plan(std::span<const Job> jobs) {
     for (const Job& job : jobs) {
         const nlohmann::ordered_json line = {{"id", job.id},
                                              {"kind", job.kind},
-                                             {"source", require_utf8(job.source, "rename it")},
-                                             {"output", require_utf8(job.output, "rename it")}};
+                                             {"source", require_utf8(job.source.generic_string(), "rename it")},
+                                             {"output", require_utf8(job.output.generic_string(), "rename it")}};
         text += line.dump() + "\n";
     }
     return text;

@@ -78,7 +78,7 @@ Json moved(Json material, const std::filesystem::path& from, const std::filesyst
     for (Json& probe : material["quality"]["probes"]) {
         Json& name = probe.is_object() ? probe["image"] : probe;
         if (name.is_string())
-            name = require_utf8(std::filesystem::proximate(from / name.get<std::string>(), to),
+            name = require_utf8(std::filesystem::proximate(from / name.get<std::string>(), to).generic_string(),
                                 "rename it, or save elsewhere");
     }
     return material;

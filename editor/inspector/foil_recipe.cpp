@@ -140,7 +140,7 @@ Json with_names(Json recipe, const Change& change) {
     for (const Control& control : kControls) {
         const Json::json_pointer at(control.pointer);
         if (control.kind == FieldKind::Name && recipe.contains(at) && recipe[at].is_string())
-            recipe[at] = change(std::filesystem::path(recipe[at].get<std::string>())).string();
+            recipe[at] = change(std::filesystem::path(recipe[at].get<std::string>())).generic_string();
     }
     return recipe;
 }
@@ -219,7 +219,7 @@ FoilPictures::Picture FoilPictures::at(const std::string& path, std::optional<in
 
 FoilRecipe FoilRecipe::make_new(const std::filesystem::path& artwork) {
     FoilRecipe made;
-    const Json json = {{"artwork", std::filesystem::absolute(artwork).lexically_normal().string()},
+    const Json json = {{"artwork", std::filesystem::absolute(artwork).lexically_normal().generic_string()},
                        {"foil", {{"type", kFirstType}}}};
     made.read_pictures(json);
     made.step(json, {});

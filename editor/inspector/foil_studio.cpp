@@ -105,7 +105,7 @@ const Field& FoilStudio::dropped_field() const {
 void FoilStudio::use_picture(const Field& field, const std::filesystem::path& file) {
     messages_.attempt([&] {
         recipe_.finish_edit();
-        recipe_.set(field, std::filesystem::absolute(file).lexically_normal().string());
+        recipe_.set(field, std::filesystem::absolute(file).lexically_normal().generic_string());
         recipe_.finish_edit();
     });
 }

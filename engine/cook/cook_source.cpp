@@ -56,7 +56,7 @@ Hash128 content_hash(const Context& context, const AssetType& type) {
 std::string depfile_text(const std::filesystem::path& output, const std::vector<std::filesystem::path>& dependencies) {
     std::string text = escaped(output) + ":";
     for (const std::filesystem::path& dependency : dependencies)
-        text += " \\\n  " + escaped(std::filesystem::absolute(dependency));
+        text += " \\\n  " + escaped(std::filesystem::absolute(dependency).generic_string());
     return text + "\n";
 }
 
@@ -152,7 +152,7 @@ void write_cook_record(const std::filesystem::path& file, const CookRecord& reco
                                    {"content_hash", record.content_hash},
                                    {"output_hash", record.output_hash},
                                    {"dependencies", nlohmann::ordered_json::array()}};
-    for (const std::filesystem::path& path : record.dependencies) json["dependencies"].push_back(path.string());
+    for (const std::filesystem::path& path : record.dependencies) json["dependencies"].push_back(path.generic_string());
     write_file_atomic(file, json.dump() + "\n");
 }
 

@@ -2,11 +2,12 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
+#include <cstdio>
 #include <filesystem>
 #include <string>
 
 #include "engine/image/image.h"
+#include "tests/support/program.h"
 
 namespace rowland::test {
 
@@ -15,9 +16,11 @@ inline std::filesystem::path result(const std::string& name) {
     return std::filesystem::path(ROWLAND_RESULT_FOLDER) / name;
 }
 
-/// Runs the demo without a window; its status as of std::system.
+/// Runs the demo without a window; its exit code.
 inline int run_demo(const std::string& arguments) {
-    return std::system((std::string(ROWLAND_DEMO) + " --headless " + arguments).c_str());
+    const Ended ended = run(command(ROWLAND_DEMO, "--headless " + arguments));
+    std::fputs(ended.err.c_str(), stderr);
+    return ended.code;
 }
 
 /// The demo's scene-linear picture.

@@ -1,6 +1,5 @@
 // Fifteen seconds of play without a window: nothing piles up.
 #include <gtest/gtest.h>
-#include <malloc.h>
 
 #include <algorithm>
 #include <array>
@@ -41,8 +40,7 @@ int rounds() {
 /// MiB of the C heap that somebody holds. Resident memory would depend on where the allocator found room:
 /// one freed map of 28 MiB stays with the process or does not.
 double held_mib() {
-    const struct mallinfo2 heap = mallinfo2();
-    return static_cast<double>(heap.uordblks + heap.hblkhd) / (1024.0 * 1024.0);
+    return static_cast<double>(test::heap_bytes()) / (1024.0 * 1024.0);
 }
 
 /// What a player does in one frame of a round, which ends as it began but for what was turned.

@@ -46,7 +46,7 @@ void expect_handled(const fs::path& folder) {
             EXPECT_NE(checked.err.find(file.string()), std::string::npos) << checked.err;
         }
     }
-    std::printf("%s: %d files, %d sane, %d refused\n", folder.c_str(), sane + refused, sane, refused);
+    std::printf("%s: %d files, %d sane, %d refused\n", folder.string().c_str(), sane + refused, sane, refused);
     EXPECT_GT(sane + refused, 0);
 }
 

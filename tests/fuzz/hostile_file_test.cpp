@@ -1,7 +1,5 @@
 // Every seed and what mutations make of it is read and sane, or refused in one line; in bounded time and memory.
 #include <gtest/gtest.h>
-#include <sys/resource.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
@@ -12,6 +10,7 @@
 #include "engine/core/file.h"
 #include "tests/fuzz/mutate.h"
 #include "tests/fuzz/seeds.h"
+#include "tests/support/environment.h"
 
 namespace rowland::fuzz {
 namespace {
@@ -19,7 +18,7 @@ namespace {
 using std::chrono::steady_clock;
 
 constexpr unsigned kMostSeconds = 10;
-constexpr long kMostKibibytes = 512 << 10;  ///< more than before
+constexpr std::uint64_t kMostBytes = 512 << 20;  ///< more than before
 
 #if !defined(__has_feature)
 #define __has_feature(feature) 0  // g++ 12
@@ -56,19 +55,13 @@ class Allowance {
     std::optional<steady_clock::time_point> end_;
 };
 
-long peak_kibibytes() {
-    rusage usage{};
-    getrusage(RUSAGE_SELF, &usage);
-    return usage.ru_maxrss;
-}
-
 class HostileFile : public testing::TestWithParam<const Format*> {
  protected:
     /// The alarm ends the process: nothing waits for a reader that hangs.
     static bool read(std::span<const std::byte> bytes) {
-        alarm(kSanitized ? 6 * kMostSeconds : kMostSeconds);
+        test::set_alarm(kSanitized ? 6 * kMostSeconds : kMostSeconds);
         const bool accepted = accepts(*GetParam(), bytes);
-        alarm(0);
+        test::set_alarm(0);
         return accepted;
     }
 };
@@ -86,7 +79,7 @@ TEST_P(HostileFile, IsSaneOrRefused) {
     const auto size = [](const Seed* seed) { return seed->bytes.size(); };
     const std::size_t most_damaged = std::max(std::size_t{128} << 10, size(std::ranges::min(sound, {}, size)));
     std::erase_if(sound, [&](const Seed* seed) { return size(seed) > most_damaged; });
-    const long before = peak_kibibytes();
+    const std::uint64_t before = test::peak_memory_bytes();
     int read_mutations = 0;
     int mutations = 0;
     for (const Allowance allowance; allowance.allows(mutations); ++mutations) {
@@ -98,7 +91,7 @@ TEST_P(HostileFile, IsSaneOrRefused) {
             write_file_atomic(std::filesystem::path(folder) / GetParam()->name, file);
         read_mutations += read(file) ? 1 : 0;
         if (!kSanitized) {
-            ASSERT_LT(peak_kibibytes() - before, kMostKibibytes);
+            ASSERT_LT(test::peak_memory_bytes() - before, kMostBytes);
         }
     }
     EXPECT_LT(read_mutations, mutations) << "nothing was refused";

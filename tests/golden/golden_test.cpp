@@ -14,6 +14,7 @@
 #pragma GCC diagnostic pop
 
 #include <cmath>
+#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <memory>
@@ -22,6 +23,7 @@
 
 #include "engine/image/byte_image.h"
 #include "engine/image/image.h"
+#include "tests/support/program.h"
 
 namespace rowland {
 namespace {
@@ -36,15 +38,16 @@ Picture read_png(const std::filesystem::path& path) {
     Picture picture;
     int channels = 0;
     const std::unique_ptr<stbi_uc, decltype(&stbi_image_free)> pixels(
-        stbi_load(path.c_str(), &picture.width, &picture.height, &channels, 3), &stbi_image_free);
+        stbi_load(path.string().c_str(), &picture.width, &picture.height, &channels, 3), &stbi_image_free);
     if (pixels) picture.rgb.assign(pixels.get(), pixels.get() + std::ptrdiff_t{3} * picture.width * picture.height);
     return picture;
 }
 
 int run_demo(const std::string& arguments) {
-    std::string command = ROWLAND_DEMO;
-    command += " --headless --disc --width 480 --height 270 " + arguments;
-    return std::system(command.c_str());
+    const test::Ended ended =
+        test::run(test::command(ROWLAND_DEMO, "--headless --disc --width 480 --height 270 " + arguments));
+    std::fputs(ended.err.c_str(), stderr);
+    return ended.code;
 }
 
 std::string cooked_probe(const std::string& name) {

@@ -1,4 +1,6 @@
 // Installs into a fresh prefix, and builds and runs the examples of content/examples against it; the pages about them.
+// With ROWLAND_TEST_WINDOWS=build/windows, examples are built for Windows against what that folder installs, and run by
+// Wine.
 #include <gmock/gmock.h>
 
 #include <fmt/ranges.h>
@@ -10,6 +12,7 @@
 #include <sstream>
 
 #include "engine/core/file.h"
+#include "engine/core/system.h"
 #include "engine/core/text.h"
 #include "engine/image/exr.h"
 #include "engine/scene/mesh_recipe.h"
@@ -38,6 +41,13 @@ constexpr const char* kMaterial = R"({
 
 class PackageTest : public test::FolderTest {
  protected:
+    /// The build for Windows; nullopt where this system is tested.
+    const std::optional<std::string> windows_ = environment_variable("ROWLAND_TEST_WINDOWS");
+
+    static std::filesystem::path for_windows(const std::string& tool) {
+        return test::content_path("package/windows/" + tool);
+    }
+
     void SetUp() override {
         if (!std::filesystem::exists(ROWLAND_TEST_COMPILER)) GTEST_SKIP() << "no compiler " << ROWLAND_TEST_COMPILER;
         install("library");
@@ -53,25 +63,31 @@ class PackageTest : public test::FolderTest {
     }
 
     void install(const std::string& component) const {
-        run({ROWLAND_TEST_CMAKE, "--install", ROWLAND_BUILD_FOLDER, "--prefix", path("prefix"), "--component",
-             component});
+        run({ROWLAND_TEST_CMAKE, "--install", windows_.value_or(ROWLAND_BUILD_FOLDER), "--prefix", path("prefix"),
+             "--component", component});
     }
 
     test::Ended configure(const std::string& project) const {
+        const std::string compiler = windows_ ? "-DCMAKE_TOOLCHAIN_FILE=" + for_windows("toolchain.cmake").string()
+                                              : std::string("-DCMAKE_CXX_COMPILER=") + ROWLAND_TEST_COMPILER;
         return test::run({ROWLAND_TEST_CMAKE, "-S", project, "-B", path("build"), "-G", ROWLAND_TEST_GENERATOR,
                           std::string("-DCMAKE_MAKE_PROGRAM=") + ROWLAND_TEST_BUILD_TOOL,
-                          std::string("-DCMAKE_CXX_COMPILER=") + ROWLAND_TEST_COMPILER,
-                          std::string("-DCMAKE_CXX_COMPILER_LAUNCHER=") + ROWLAND_TEST_LAUNCHER,
+                          std::string("-DCMAKE_CXX_COMPILER_LAUNCHER=") + ROWLAND_TEST_LAUNCHER, compiler,
                           "-DCMAKE_PREFIX_PATH=" + path("prefix").string()},
                          kBuild);
     }
 
-    /// The program of an example.
-    std::string build_example(const std::string& name) const {
+    /// Builds an example; returns the command that starts its program.
+    test::Command build_example(const std::string& name) const {
         const auto configured = configure(test::content_path(std::string("examples/") + name).string());
         EXPECT_EQ(configured.code, 0) << configured.out << configured.err;
         run({ROWLAND_TEST_CMAKE, "--build", path("build")});
-        return path("build") / name;
+        if (windows_) return {for_windows("wine.sh"), path("build") / (name + ".exe")};
+        return {path("build") / name};
+    }
+    static std::string run(test::Command program, const std::vector<std::filesystem::path>& files) {
+        program.insert(program.end(), files.begin(), files.end());
+        return run(program);
     }
 
     /// A sky with a warm lamp, in the equirectangular mapping.
@@ -106,7 +122,7 @@ class PackageTest : public test::FolderTest {
 
     /// A plane seen from above, black but for what `extensions` put on it, drawn by the engine example: the picture's
     /// middle.
-    glm::ivec3 middle_of_card(const std::string& program, const std::string& extensions) const {
+    glm::ivec3 middle_of_card(const test::Command& program, const std::string& extensions) const {
         const glm::vec3 eye(0.4F, 1.0F, 1.0F);
         const glm::quat toward = glm::quatLookAt(-glm::normalize(eye), glm::vec3(0.0F, 1.0F, 0.0F));
         nlohmann::json file = {
@@ -128,7 +144,7 @@ class PackageTest : public test::FolderTest {
         primitive["material"] = 0;
         file["meshes"] = {{{"name", "card"}, {"primitives", {primitive}}}};
         write_file_atomic(path("card.glb"), scene::test::glb_of(file));
-        run({program, path("card.glb"), path("probe.exr"), path("card.png")});
+        run(program, {path("card.glb"), path("probe.exr"), path("card.png")});
         const auto picture = image::decode_byte_image(read_file(path("card.png"), std::uint64_t{1} << 24), "card.png");
         const auto middle = static_cast<std::size_t>(4 * (picture.height / 2 * picture.width + picture.width / 2));
         return {picture.rgba[middle], picture.rgba[middle + 1], picture.rgba[middle + 2]};
@@ -147,8 +163,8 @@ double error_of(const double* xyz, const double* expected) {
 }
 
 TEST_F(PackageTest, OnePixelOfTheExampleIsWhatTradeEvaluates) {
-    const std::string program = build_example("one_pixel");
-    const Rows shaded = rows("X,Y,Z\n" + run({program, path("probe.exr")}), "X,Y,Z");
+    const test::Command program = build_example("one_pixel");
+    const Rows shaded = rows("X,Y,Z\n" + run(program, {path("probe.exr")}), "X,Y,Z");
     const Rows expected =
         evaluate({{0.36, 0.48, 0.8, 0, 0, 1, 1, 0, 0}}, {"--method", "arc", "--rank", "16", "--storage", "fp16"});
     ASSERT_EQ(shaded.size(), 1U);
@@ -174,9 +190,9 @@ TEST_F(PackageTest, PixelsOfTheBareGlExampleAreWhatTheCpuEvaluates) {
     // Texture units interpolate with 8 bits (1/512 of what neighbours differ by). A software rasteriser is 7e-5 off for
     // the probe and, on the flanks of a rainbow, 3e-4 of its brightest for the lamp.
     constexpr double tolerance = 2e-3;
-    const std::string program = build_example("bare_gl");
+    const test::Command program = build_example("bare_gl");
     run({ROWLAND_COOK, "cook", path("cd.json"), "-o", path("cd.material")});
-    const Rows pixels = rows(run({program, path("cd.material"), path("probe.exr"), path("disc.png")}), kPixelColumns);
+    const Rows pixels = rows(run(program, {path("cd.material"), path("probe.exr"), path("disc.png")}), kPixelColumns);
     ASSERT_GT(pixels.size(), 50U);
     const Rows expected = evaluate(pixels, {"--method", "planar", "--resolution", "256"});
     const auto material = diffraction::load_cooked_material(path("cd.material"));
@@ -195,7 +211,7 @@ TEST_F(PackageTest, PixelsOfTheBareGlExampleAreWhatTheCpuEvaluates) {
 
 TEST_F(PackageTest, EngineExampleDrawsAGltfSceneWithAGratingAndAFilm) {
     install("runtime");
-    const std::string program = build_example("engine_scene");
+    const test::Command program = build_example("engine_scene");
     const glm::ivec3 plain = middle_of_card(program, "{}");
     const glm::ivec3 grating = middle_of_card(program, R"({ "ROWLAND_materials_diffraction": {
         "grating": { "pitch_nm": 1600, "profile": { "type": "slit", "width_nm": 800 } },
@@ -210,7 +226,7 @@ TEST_F(PackageTest, EngineExampleDrawsAGltfSceneWithAGratingAndAFilm) {
 
 TEST_F(PackageTest, AModuleOfAnotherProjectChangesHowLightIsReflected) {
     install("runtime");
-    const std::string program = build_example("own_module");
+    const test::Command program = build_example("own_module");
     const glm::ivec3 grey =
         middle_of_card(program, R"({ "EXAMPLE_materials_metal": { "n": [0.18, 0.18, 0.18], "k": [3.4, 3.4, 3.4] } })");
     const glm::ivec3 gold = middle_of_card(

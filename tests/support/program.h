@@ -9,12 +9,16 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace rowland::test {
 
 /// A program and its arguments, as they are (no shell).
 using Command = std::vector<std::string>;
+
+/// A program and arguments between spaces; an argument in single quotes may hold spaces, or be empty.
+Command command(const std::string& program, std::string_view arguments);
 
 /// What a program is run in.
 struct Surroundings {

@@ -155,8 +155,4 @@ Ended Running::ended(int status) const {
     return result;
 }
 
-Ended run(const Command& command, const Surroundings& surroundings) {
-    return Running(command, surroundings).wait();
-}
-
 }  // namespace rowland::test

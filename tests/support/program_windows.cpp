@@ -110,7 +110,7 @@ std::string Running::err() const {
 }
 
 void Running::kill() {
-    TerminateJobObject(state_->job, 1);
+    TerminateJobObject(state_->job, 128 + 9);  // as of SIGKILL
 }
 
 Ended Running::wait() {
@@ -134,10 +134,6 @@ Ended Running::ended(int status) const {
     result.out = content(state_->out);
     result.err = content(state_->err);
     return result;
-}
-
-Ended run(const Command& command, const Surroundings& surroundings) {
-    return Running(command, surroundings).wait();
 }
 
 }  // namespace rowland::test

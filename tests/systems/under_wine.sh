@@ -1,9 +1,11 @@
 #!/usr/bin/env bash
 # under_wine.sh FOLDER
 # Runs the programs of build/rowland-windows.zip by Wine, unpacked below FOLDER into a folder whose name has spaces and Cyrillic
-# letters, beside those of build/release: pictures of the flight, cooked bytes, a report, a recording, and real clicks in the
-# inspector. A line each says how it went; FOLDER/*.log say why. Exits 1 if any failed.
-# Needs the two builds, blender-data, wine64, xvfb, xauth, xdotool, imagemagick, unzip; some minutes.
+# letters, beside those of build/release: pictures of the flight, cooked bytes, a report, a recording, real clicks in the
+# inspector, examples built by MinGW, and cooks that are killed, that fill a disk, that may not write, or that are two at once. A
+# line each says how it went; FOLDER/*.log say why. Exits 1 if any failed.
+# Needs the two builds, blender-data, wine64, xvfb, xauth, xdotool, imagemagick, unzip, and root, which mounts small disks; some
+# minutes.
 # example: ./rowland windows && tests/systems/under_wine.sh /tmp/wine
 set -euo pipefail
 [ $# -eq 1 ] || { sed -n '2,7s/^# //p' "$0" >&2; exit 2; }
@@ -79,6 +81,83 @@ report() {
     [ -s report/report.html ]
 }
 
+# A cook of a moment, into the file that is named; its messages are in cook.err.
+cat >small.json <<'JSON'
+{ "grating": { "pitch_nm": 1600, "profile": { "type": "slit", "width_nm": 800 } },
+  "quality": { "representation": "spikes", "bands": 8, "spikes": 4, "view_resolution": 16 } }
+JSON
+cook() { windows rowland-cook cook small.json -o "$1" 2>cook.err; }
+
+# Killed ever later, it leaves the old file or the new one whole, and nothing beside it.
+killed() {
+    local hundredths=0 killed=0 attempt
+    rm -rf killed && mkdir killed
+    cook killed/whole
+    while :; do
+        hundredths=$((hundredths + 3))
+        printf old >killed/asset
+        # Without a function between them, $! is the program.
+        "$source/content/package/windows/wine.sh" "$unpacked/rowland/bin/rowland-cook.exe" cook small.json -o killed/asset &
+        sleep "$(printf '%d.%02d' $((hundredths / 100)) $((hundredths % 100)))"
+        kill -KILL $! 2>/dev/null || true
+        if wait $!; then
+            cmp killed/asset killed/whole
+            break
+        fi
+        # Wine's server removes the file that was marked for deletion once it sees that the program is dead.
+        for attempt in 1 2 3 4 5 6 7 8 9 10; do
+            [ "$(ls -A killed)" != "$(printf 'asset\nwhole')" ] || break
+            sleep 0.1
+        done
+        ls -A killed
+        [ "$attempt" -lt 10 ]
+        [ "$(head -c 3 killed/asset)" = old ] || cmp killed/asset killed/whole
+        killed=$((killed + 1))
+    done
+    say "killed $killed times"
+    [ $killed -gt 5 ]
+}
+
+# on_disk SIZE COMMAND...: with a small disk at disk/.
+on_disk() {
+    local size=$1 status=0
+    shift
+    mkdir -p disk
+    mount -t tmpfs -o "size=$size" tmpfs disk
+    ("$@") || status=$?
+    umount disk
+    return $status
+}
+# refused CODE TEXT: the cook failed in this way, and the old file is there alone.
+refused() {
+    cat cook.err
+    [ "$status" -eq "$1" ] && grep -q "$2" cook.err && [ "$(cat disk/asset)" = old ] && [ "$(ls -A disk)" = asset ]
+}
+full() {
+    local status=0
+    printf old >disk/asset
+    cook disk/asset || status=$?
+    refused 1 'writing failed: .*; check permissions and free space'
+}
+read_only() {
+    local status=0
+    printf old >disk/asset
+    mount -o remount,ro disk
+    cook disk/asset || status=$?
+    refused 2 'a file that can be written; name another file'
+}
+
+# Two cooks of one file at once both succeed.
+two() {
+    rm -rf two && mkdir two
+    cook two/alone
+    cook two/asset &
+    cook two/asset
+    wait $!
+    cmp two/asset two/alone
+    [ "$(ls -A two)" = "$(printf 'alone\nasset')" ]
+}
+
 # The window tests' user, before the inspector for Windows; what Linux recorded is played by the demo for Windows.
 cat >inspector <<EOF
 #!/usr/bin/env bash
@@ -96,4 +175,10 @@ check cooked cooked
 check recording in_window 'PlayWindow.ARecordingPlaysAgainToTheSameStateWithAndWithoutAWindow'
 check inspector in_window 'SceneWindow.OneSampleOfManyGetsAGratingAlone'
 check report report
+check examples env ROWLAND_TEST_WINDOWS="$source/build/windows" CI=true "$release/bin/test_package" \
+    --gtest_filter='PackageTest.*Example*:PackageTest.AModule*'
+check killed killed
+check full_disk on_disk 40k full
+check read_only on_disk 1m read_only
+check two_at_once two
 exit $failed

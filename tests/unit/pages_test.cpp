@@ -41,7 +41,7 @@ bool is_text(const std::filesystem::path& path) {
 TreeFile read(const std::filesystem::path& top, const std::filesystem::path& path) {
     std::ostringstream text;
     text << std::ifstream(path, std::ios::binary).rdbuf();
-    return {path.lexically_relative(top).string(), text.str()};
+    return {path.lexically_relative(top).generic_string(), text.str()};
 }
 
 /// Sources, pages, CMake files and scripts under engine, modules, editor, content, tests and at the top, but no data.
@@ -247,7 +247,7 @@ TEST(Pages, EveryLinkLeadsToAFileAndAHeading) {
             const std::string name = target.substr(0, target.find('#'));
             const std::filesystem::path path =
                 (std::filesystem::path(file.path).parent_path() / name).lexically_normal();
-            const std::string linked = name.empty() ? file.path : path.string();
+            const std::string linked = name.empty() ? file.path : path.generic_string();
             EXPECT_TRUE(std::filesystem::exists(top / linked)) << where << ": no file " << target;
             if (target.find('#') == std::string::npos || !linked.ends_with(".md")) continue;
             EXPECT_TRUE(anchors_of(text_of(linked)).contains(target.substr(target.find('#') + 1)))

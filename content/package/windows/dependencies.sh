@@ -7,7 +7,7 @@ cache=$(mkdir -p "$1" && cd "$1" && pwd)
 prefix="$cache/libraries" sources="$cache/sources" logs="$cache/logs"
 triple=x86_64-w64-mingw32
 export CC="$triple-gcc-posix" CXX="$triple-g++-posix" AR="$triple-ar" RANLIB="$triple-ranlib"
-flags="-O2 -Wa,-muse-unaligned-vector-move" # the reason is in toolchain.cmake
+flags="-O2 -Wa,-muse-unaligned-vector-move -fno-ipa-ra" # the reasons are in toolchain.cmake
 jobs=${ROWLAND_JOBS:-$(nproc)}
 mkdir -p "$prefix"/{include,lib/pkgconfig} "$sources" "$logs"
 

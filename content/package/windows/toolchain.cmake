@@ -8,9 +8,11 @@ set(CMAKE_C_COMPILER ${triple}-gcc-posix)
 set(CMAKE_CXX_COMPILER ${triple}-g++-posix)
 set(CMAKE_RC_COMPILER ${triple}-windres)
 # Programs contain the compiler's libraries, so that they start from any folder. GCC takes the stack of Windows for aligned to
-# 32 bytes, which it is not (GCC bug 54412), so the assembler turns aligned moves of AVX registers into unaligned ones.
-set(CMAKE_C_FLAGS_INIT "-Wa,-muse-unaligned-vector-move -Wa,-mbig-obj")
-set(CMAKE_CXX_FLAGS_INIT "-Wa,-muse-unaligned-vector-move -Wa,-mbig-obj")
+# 32 bytes, which it is not (GCC bug 54412), so the assembler turns aligned moves of AVX registers into unaligned ones. With -fipa-ra
+# a caller relies on the registers that its own copy of an inline function leaves alone, where the linker may have kept another
+# copy, of a source with other options.
+set(CMAKE_C_FLAGS_INIT "-Wa,-muse-unaligned-vector-move -Wa,-mbig-obj -fno-ipa-ra")
+set(CMAKE_CXX_FLAGS_INIT "-Wa,-muse-unaligned-vector-move -Wa,-mbig-obj -fno-ipa-ra")
 set(CMAKE_EXE_LINKER_FLAGS_INIT "-static")
 
 if(NOT ROWLAND_WINDOWS_LIBRARIES)
@@ -24,7 +26,7 @@ endif()
 set(ROWLAND_WINDOWS_LIBRARIES "${ROWLAND_WINDOWS_LIBRARIES}" CACHE PATH "The libraries that dependencies.sh installed")
 # CMake's own trial projects include this file as well.
 list(APPEND CMAKE_TRY_COMPILE_PLATFORM_VARIABLES ROWLAND_WINDOWS_LIBRARIES)
-set(CMAKE_FIND_ROOT_PATH ${ROWLAND_WINDOWS_LIBRARIES} /usr/${triple})
+set(CMAKE_FIND_ROOT_PATH ${ROWLAND_WINDOWS_LIBRARIES} /usr/${triple} ${CMAKE_PREFIX_PATH})
 set(CMAKE_FIND_ROOT_PATH_MODE_PROGRAM NEVER)
 set(CMAKE_FIND_ROOT_PATH_MODE_LIBRARY ONLY)
 set(CMAKE_FIND_ROOT_PATH_MODE_INCLUDE ONLY)

@@ -9,4 +9,9 @@ export WINEDLLOVERRIDES="mscoree=;mshtml="
 # Debian's wine also starts without its 32-bit half, but says on each start that it is missing.
 wine=/usr/lib/wine/wine64
 [ -x "$wine" ] || wine=wine
+# Wine's server and services take seconds to start, so that they stay for a minute after a program. Started by the program itself,
+# they would hold its output open.
+server=/usr/lib/wine/wineserver64
+[ -x "$server" ] || server=wineserver
+if "$server" -p60 </dev/null >/dev/null 2>&1; then "$wine" wineboot </dev/null >/dev/null 2>&1 || true; fi
 exec "$wine" "$@"

@@ -19,11 +19,12 @@ void move_name(OrderedJson& owner, const char* key, const std::string& extension
                const std::filesystem::path& to) {
     if (!owner.is_object() || !owner.contains(key) || !owner[key].is_string()) return;
     const std::string name = owner[key];
-    if (!name.ends_with(extension) || std::filesystem::path(name).is_absolute()) return;
+    if (!name.ends_with(extension) || std::filesystem::path(name).has_root_directory()) return;
     const auto canonical = [](const std::filesystem::path& path) {
         return std::filesystem::weakly_canonical(std::filesystem::absolute(path));
     };
-    const std::filesystem::path moved = canonical(from / name).lexically_relative(canonical(to));
+    // Between drives only whole names lead.
+    const std::filesystem::path moved = canonical(from / name).lexically_proximate(canonical(to));
     owner[key] = require_utf8(moved.generic_string(), "rename the folders between the two");
 }
 

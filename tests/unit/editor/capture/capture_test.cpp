@@ -91,8 +91,8 @@ class Capture : public test::FolderTest {
  protected:
     Capture() { write("room.gltf", room().dump()); }
     test::Ended capture(const test::Command& more) {
-        test::Command command{ROWLAND_COOK, "capture", path("room.gltf"), "--probe",
-                              test::content_path("probes/clear_sky.json")};
+        test::Command command{ROWLAND_COOK, "capture", path("room.gltf").string(), "--probe",
+                              test::content_path("probes/clear_sky.json").string()};
         command.insert(command.end(), more.begin(), more.end());
         return test::run(command, {.environment = {{"XDG_CACHE_HOME", path("cache").string()}}});
     }
@@ -135,8 +135,8 @@ TEST_F(Capture, AProbeHoldsTheWallsThatAreSeenFromIt) {
     // Twice the same, and cooked into the scene.
     ASSERT_EQ(capture({"--face", "32", "--only", "inside"}).code, 0);
     EXPECT_EQ(read_file(path("inside.probe"), 1 << 26), bytes);
-    ASSERT_EQ(test::run({ROWLAND_COOK, "cook", path("room.gltf"), "-o", path("room.scene")}).code, 0);
-    const test::Ended info = test::run({ROWLAND_COOK, "info", path("room.scene")});
+    ASSERT_EQ(test::run({ROWLAND_COOK, "cook", path("room.gltf").string(), "-o", path("room.scene").string()}).code, 0);
+    const test::Ended info = test::run({ROWLAND_COOK, "info", path("room.scene").string()});
     EXPECT_THAT(info.out, HasSubstr("probe: \"inside\"\nfile: inside.probe\nsize: 6 3 4\nfade: 1\n"));
     EXPECT_THAT(info.out, HasSubstr("file: outside.probe\nsize: 6 3 4\nfade: 1\nbytes: 0\n"));
 }

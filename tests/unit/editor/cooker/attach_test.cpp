@@ -103,7 +103,7 @@ TEST_F(Attach, WritesAnOutputAndWhatWasRead) {
               "../m/vinyl_efficiency.csv");
     EXPECT_TRUE(material(2, "out/scene.gltf").contains("extensions"));
     for (const std::string& name : {path("scene.gltf"), path("m/vinyl.json"), path("m/vinyl_efficiency.csv"), dvd})
-        EXPECT_THAT(text("scene.d"), HasSubstr(name));
+        EXPECT_THAT(text("scene.d"), HasSubstr(fs::path(name).generic_string()));
     EXPECT_EQ(attach({"--remove", "#2", "-o", path("scene2.gltf")}, "out/scene.gltf").code, 0);
     EXPECT_EQ(material(0, "scene2.gltf")["extensions"][kExtension]["grating"]["profile"]["file"],
               "m/vinyl_efficiency.csv")

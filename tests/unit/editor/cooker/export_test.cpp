@@ -33,7 +33,7 @@ class Export {
  public:
     Export(const std::filesystem::path& material, const test::Command& more) {
         const std::filesystem::path file = folder_.path() / "out.json";
-        test::Command command{ROWLAND_COOK, "export", material, "-o", file};
+        test::Command command{ROWLAND_COOK, "export", material.string(), "-o", file.string()};
         command.insert(command.end(), more.begin(), more.end());
         const test::Ended ended = test::run(command);
         EXPECT_EQ(ended.code, 0) << ended.err;
@@ -86,8 +86,9 @@ std::vector<glm::dvec3> evaluated(const std::filesystem::path& probe, const std:
                                   std::span<const diffraction::ShadingPoint> frames,
                                   const std::filesystem::path& file = kCd) {
     const nlohmann::json source = diffraction::load_material_json(file);
-    const diffraction::Material material = with_efficiencies(
-        diffraction::parse_material(with_method(source, diffraction::parse_method(method)), file), file);
+    const diffraction::Material material = diffraction::with_efficiencies(
+        diffraction::parse_material(with_method(source, diffraction::parse_method(method)), file.string()),
+        file.string());
     const diffraction::EvaluationLight light(lighting::load_probe_image(probe, lighting::Mapping::Equirectangular),
                                              key_lights, math::SphericalWindow::None);
     return evaluate_baked(bake_material(material), light, frames);
@@ -126,8 +127,8 @@ glm::dvec3 from_map(const Export& document, const std::vector<float>& xyz, const
 
 TEST(Export, AMapShadesAsThePlanarRepresentationDoes) {
     ROWLAND_TEST_DATA(probe, "probes/venice_sunset_256.hdr");
-    const Export document(kCd,
-                          {"--probe", probe, "--key-lights", "0", "--planar", "1", "2", "-1", "--resolution", "64"});
+    const Export document(
+        kCd, {"--probe", probe.string(), "--key-lights", "0", "--planar", "1", "2", "-1", "--resolution", "64"});
     const glm::dvec3 normal = document.vector("/planar/normal");
     EXPECT_NEAR(glm::dot(normal, glm::normalize(glm::dvec3(1.0, 2.0, -1.0))), 1.0, 1e-12);
     const auto frames = points(&normal);
@@ -190,7 +191,7 @@ glm::dvec3 from_arc(const Export& document, const diffraction::ShadingPoint& poi
 
 TEST(Export, AnArcTableShadesAsTheArcRepresentationDoes) {
     ROWLAND_TEST_DATA(probe, "probes/venice_sunset_256.hdr");
-    const Export document(kCd, {"--probe", probe, "--key-lights", "0", "--arc"});
+    const Export document(kCd, {"--probe", probe.string(), "--key-lights", "0", "--arc"});
     auto frames = points(nullptr);
     frames.resize(20);
     std::vector<glm::dvec3> found;
@@ -289,7 +290,7 @@ constexpr double kLobeTolerance = 2.5e-2;
 
 TEST(Export, KeyLightsAndTheKernelShadeAsTheDirectRepresentationDoes) {
     ROWLAND_TEST_DATA(probe, "probes/venice_sunset_256.hdr");
-    const Export document(kCd, {"--probe", probe, "--key-lights", "4"});
+    const Export document(kCd, {"--probe", probe.string(), "--key-lights", "4"});
     auto frames = points(nullptr);
     frames.resize(12);
     EXPECT_EQ(document.json["probe"]["key_lights"].size(), 4U);
@@ -326,8 +327,8 @@ class ViewDependentExport : public testing::Test {
 TEST_F(ViewDependentExport, EachPartShadesAsItsRepresentationDoes) {
     ROWLAND_TEST_DATA(probe, "probes/venice_sunset_256.hdr");
     for (const std::filesystem::path& file : {rigorous(), table()}) {
-        const Export maps(
-            file, {"--probe", probe, "--key-lights", "0", "--arc", "--planar", "1", "2", "-1", "--resolution", "64"});
+        const Export maps(file, {"--probe", probe.string(), "--key-lights", "0", "--arc", "--planar", "1", "2", "-1",
+                                 "--resolution", "64"});
         const glm::dvec3 normal = maps.vector("/planar/normal");
         const auto flat = points(&normal);
         const std::vector<float> xyz = maps.array("/planar/xyz");
@@ -341,7 +342,7 @@ TEST_F(ViewDependentExport, EachPartShadesAsItsRepresentationDoes) {
         for (const auto& point : frames) found.push_back(from_arc(maps, point));
         EXPECT_LT(difference(found, evaluated(probe, "arc/bands=5/rank=8/storage=fp32", 0, frames, file)), 1e-3);
 
-        const Export lights(file, {"--probe", probe, "--key-lights", "4"});
+        const Export lights(file, {"--probe", probe.string(), "--key-lights", "4"});
         const std::vector<glm::dvec3> expected = evaluated(probe, "direct", 4, frames, file);
         EXPECT_LT(difference(from_key_lights(lights, frames), expected), kLobeTolerance) << file;
         EXPECT_GT(difference(from_key_lights(lights, frames, 0.0), expected), 2.0 * kLobeTolerance) << file;
@@ -359,7 +360,8 @@ TEST_F(ViewDependentExport, HoldsTheEfficienciesAndWhetherOppositeViewsAreAlike)
             const nlohmann::json patch = {{{"op", "remove"}, {"path", without}}};
             EXPECT_FALSE(test::satisfies(document.json.patch(patch), schema)) << without;
         }
-        const diffraction::Material material = with_efficiencies(diffraction::load_material(file), file.string());
+        const diffraction::Material material =
+            diffraction::with_efficiencies(diffraction::load_material(file), file.string());
         const nlohmann::json& json = document.json["material"]["efficiencies"];
         const std::vector<float> values = document.array("/material/efficiencies/values");
         std::size_t i = 0;
@@ -405,7 +407,7 @@ TEST(Export, IsSmallSatisfiesItsSchemaAndHasTheSameBytesEveryTime) {
 TEST(Export, RefusesWhatItCannotWriteOrMap) {
     const test::TemporaryFolder folder;
     const auto message = [&](const test::Command& more) {
-        test::Command command{ROWLAND_COOK, "export", kCd};
+        test::Command command{ROWLAND_COOK, "export", kCd.string()};
         command.insert(command.end(), more.begin(), more.end());
         const test::Ended ended = test::run(command, {.folder = folder.path()});
         EXPECT_EQ(ended.code, 2) << ended.err;
@@ -416,8 +418,9 @@ TEST(Export, RefusesWhatItCannotWriteOrMap) {
     EXPECT_THAT(message({"-o", "out.json", "--resolution", "33"}), HasSubstr("33 is odd"));
     EXPECT_THAT(message({"-o", "out.json", "--planar", "1e300", "0", "0"}), HasSubstr("no number"));
     for (const char* material : {"materials/diffraction_glasses.json", "materials/screen_door.json"}) {
-        const test::Ended ended = test::run({ROWLAND_COOK, "export", test::content_path(material), "-o", "out.json"},
-                                            {.folder = folder.path()});
+        const test::Ended ended =
+            test::run({ROWLAND_COOK, "export", test::content_path(material).string(), "-o", "out.json"},
+                      {.folder = folder.path()});
         EXPECT_EQ(ended.code, 2) << material;
         EXPECT_THAT(ended.err, HasSubstr("document")) << material;
     }

@@ -58,7 +58,7 @@ TEST_F(FoilCommand, CardsOfAllTypesAreValidGltf) {
                                    type + R"("}, "card": {"back": "a.png"}})";
         ASSERT_EQ(foil(recipe).code, 0) << type;
         const test::Ended ended =
-            test::run({"/usr/bin/env", "node", test::source_path("tests/unit/engine/scene/validate_gltf.cjs"),
+            test::run({"/usr/bin/env", "node", test::source_path("tests/unit/engine/scene/validate_gltf.cjs").string(),
                        path("card.glb").string()});
         if (ended.code == 77 || ended.code == 127) GTEST_SKIP() << "no gltf-validator";
         EXPECT_EQ(ended.code, 0) << type << ": " << ended.out << ended.err;

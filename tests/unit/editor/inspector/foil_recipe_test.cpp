@@ -99,7 +99,7 @@ TEST_F(FoilRecipeTest, EditsOfOneFieldAreOneStepOfUndo) {
 TEST_F(FoilRecipeTest, IsReadAsItWasSavedAlsoFromAnotherFolder) {
     write_picture("mask.png", 48, 64);
     FoilRecipe recipe = FoilRecipe::make_new(path("art.png"));
-    recipe.set(field(recipe, "/mask"), path("mask.png").string());
+    recipe.set(field(recipe, "/mask"), path("mask.png").generic_string());
     recipe.set_type("own");
     EXPECT_TRUE(recipe.dirty());
     std::filesystem::create_directory(path("recipes"));

@@ -9,6 +9,7 @@
 #include "engine/core/file.h"
 #include "engine/image/byte_image.h"
 #include "engine/scene/transform.h"
+#include "tests/support/environment.h"
 #include "tests/support/files.h"
 #include "tests/support/program.h"
 
@@ -21,10 +22,8 @@ const std::string kContent = test::source_path("content").string();
 
 class InspectorProgram : public testing::Test {
  protected:
-    /// Runs a program; `arguments` as in a shell.
     test::Ended run(const std::string& program, const std::string& arguments) const {
-        return test::run({"/bin/sh", "-c", fmt::format("exec '{}' {}", program, arguments)},
-                         {.limit = std::chrono::seconds(400)});
+        return test::run(test::command(program, arguments), {.limit = std::chrono::seconds(400)});
     }
     test::Ended inspect(const std::string& arguments) const {
         return run(ROWLAND_INSPECTOR, "--layout " + path("none.json") + " " + arguments);
@@ -44,12 +43,13 @@ TEST_F(InspectorProgram, WhatCannotBeOpenedIsRefusedByName) {
     write_file_atomic(path("corrupt.json"), "{\"grating\": {\"pitch_nm\": 16");
     write_file_atomic(path("huge.json"), std::string(40 << 20, ' '));
     write_file_atomic(path("bad.glb"), "glTF");
-    write_file_atomic(path("caf\xe9.json"), "[1]");
+    const char* const odd_name = test::has_posix_files() ? "caf\xe9.json" : "caf\xc3\xa9.json";
+    write_file_atomic(path(odd_name), "[1]");
     for (const auto& [option, name] : {std::pair("", "corrupt.json"),
                                        {"", "huge.json"},
                                        {"", "bad.glb"},
                                        {"", "missing.json"},
-                                       {"", "caf\xe9.json"},
+                                       {"", odd_name},
                                        {"--probe", "missing.hdr"}}) {
         const test::Ended refused = inspect(fmt::format("{} '{}' --capture '{}'", option, path(name), path("x.png")));
         EXPECT_EQ(refused.code, 2) << name << ": " << refused.err;

@@ -6,6 +6,7 @@
 #include "modules/diffraction/evaluate/budget.h"
 #include "modules/diffraction/evaluate/error_measure.h"
 #include "tests/support/files.h"
+#include "tests/support/program.h"
 
 namespace rowland::inspector {
 namespace {
@@ -19,11 +20,9 @@ lighting::ProbeImage sky() {
 
 std::string info(const std::filesystem::path& source, const std::filesystem::path& folder) {
     const std::string baked = (folder / "m.material").string();
-    const std::string text = (folder / "info.txt").string();
-    const std::string command = fmt::format("'{0}' cook '{1}' --output '{2}' && '{0}' info '{2}' > '{3}'", ROWLAND_COOK,
-                                            source.string(), baked, text);
-    EXPECT_EQ(std::system(command.c_str()), 0) << command;
-    return read_text_file(text, 1 << 20);
+    const test::Ended cooked = test::run({ROWLAND_COOK, "cook", source.string(), "--output", baked});
+    EXPECT_EQ(cooked.code, 0) << cooked.err;
+    return test::run({ROWLAND_COOK, "info", baked}).out;
 }
 
 /// Prices a material's own settings and stops.

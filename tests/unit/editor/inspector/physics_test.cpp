@@ -9,6 +9,7 @@
 #include "editor/inspector/document.h"
 #include "engine/core/file.h"
 #include "tests/support/files.h"
+#include "tests/support/program.h"
 
 namespace rowland::inspector {
 namespace {
@@ -234,11 +235,11 @@ const diffraction::ShadingPoint kFrame{.view = {0.2, 0.6, 0.77}, .normal = {0.0,
 /// The numbers of the row that rowland-trade prints.
 glm::dvec3 evaluated(const std::string& arguments, const std::filesystem::path& folder) {
     write_file_atomic(folder / "frames.csv", "vx,vy,vz,nx,ny,nz,gx,gy,gz\n0.2,0.6,0.77,0,1,0.1,1,0,0.3\n");
-    const std::string output = (folder / "out.csv").string();
-    const std::string command = fmt::format("'{}' evaluate {} --frames '{}' > '{}'", ROWLAND_TRADE, arguments,
-                                            (folder / "frames.csv").string(), output);
-    EXPECT_EQ(std::system(command.c_str()), 0) << command;
-    std::istringstream text(read_text_file(output, 1 << 16));
+    const std::string frames = (folder / "frames.csv").string();
+    const test::Ended ended =
+        test::run(test::command(ROWLAND_TRADE, fmt::format("evaluate {} --frames '{}'", arguments, frames)));
+    EXPECT_EQ(ended.code, 0) << ended.err;
+    std::istringstream text(ended.out);
     std::string line;
     std::getline(text, line);
     std::getline(text, line);
@@ -283,7 +284,7 @@ TEST(PointRadiance, IsWhatEvaluatePrints) {
                     evaluated(fmt::format("--material '{}' {} --method reference", source, of_probe), folder.path()),
                     1e-8, "reference");
         const std::string baked = (folder.path() / "m.material").string();
-        ASSERT_EQ(std::system(fmt::format("'{}' cook '{}' --output '{}'", ROWLAND_COOK, source, baked).c_str()), 0);
+        ASSERT_EQ(test::run({ROWLAND_COOK, "cook", source, "--output", baked}).code, 0);
         expect_same(point.drawn, evaluated(fmt::format("--cooked '{}' {}", baked, of_probe), folder.path()), 1e-8,
                     "drawn");
         EXPECT_GT(glm::distance(point.reference, last), 0.01 * glm::length(last)) << "another probe or material";

@@ -7,12 +7,8 @@
 
 namespace rowland::test {
 
-Command trade_command(const std::string& arguments) {
-    return {"/bin/sh", "-c", fmt::format("exec '{}' {}", ROWLAND_TRADE, arguments)};
-}
-
 Ended run_trade(const std::filesystem::path& folder, const std::string& arguments) {
-    return run(trade_command(arguments), {.folder = folder, .limit = std::chrono::minutes(10)});
+    return run(command(ROWLAND_TRADE, arguments), {.folder = folder, .limit = std::chrono::minutes(10)});
 }
 
 std::string uniform_hdr(int width, int height) {

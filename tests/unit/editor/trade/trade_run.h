@@ -4,9 +4,7 @@
 
 namespace rowland::test {
 
-/// rowland-trade with these arguments, written as in a shell.
-Command trade_command(const std::string& arguments);
-/// Runs it in a folder.
+/// Runs rowland-trade with these arguments in a folder: test::command().
 Ended run_trade(const std::filesystem::path& folder, const std::string& arguments);
 
 /// A Radiance image of radiance 1, uncompressed.

@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <zstd.h>
 
+#include <regex>
+
 #include "engine/core/byte_stream.h"
 #include "tests/support/expect.h"
 #include "tests/support/files.h"
@@ -129,8 +131,9 @@ TEST(Container, TrailingBytesAreRefused) {
 TEST(Container, ChecksumErrorNamesBothSums) {
     std::vector<std::byte> bytes = pack(sample());
     bytes.back() ^= std::byte{1};
-    EXPECT_THAT(unpack_message(bytes), testing::MatchesRegex("a.probe: checksum: [0-9a-f]{32}; expected "
-                                                             "[0-9a-f]{32}; cook it again: ./rowland cook"));
+    const std::string message = unpack_message(bytes);
+    const std::regex form("a.probe: checksum: [0-9a-f]{32}; expected [0-9a-f]{32}; cook it again: ./rowland cook");
+    EXPECT_TRUE(std::regex_match(message, form)) << message;
 }
 
 TEST(Container, OtherContainerVersionsNameBothAndTheCommand) {

@@ -3,6 +3,7 @@
 
 #include "engine/cook/cook_source.h"
 #include "engine/core/parallel.h"
+#include "tests/support/environment.h"
 #include "tests/support/expect.h"
 #include "tests/support/folder_test.h"
 #include "tests/unit/engine/cook/tile_type.h"
@@ -104,8 +105,9 @@ TEST_F(CookSourceTest, DepfileListsTransitiveSources) {
     const auto source = write("a.tiles", "include b c#$.txt\n");
     const BakedAsset baked = cook_source(registry_, source, path("a.cooked"), {.depfile = path("a.d")});
     EXPECT_THAT(baked.dependencies, ElementsAre(source, path("b c#$.txt")));
-    const std::string folder = folder_.path().string();
-    EXPECT_EQ(text("a.d"), folder + "/a.cooked: \\\n  " + folder + "/a.tiles \\\n  " + folder + "/b\\ c\\#$$.txt\n");
+    const std::string folder = folder_.path().generic_string();
+    EXPECT_EQ(text("a.d"),
+              path("a.cooked").string() + ": \\\n  " + folder + "/a.tiles \\\n  " + folder + "/b\\ c\\#$$.txt\n");
 }
 
 TEST_F(CookSourceTest, FailureLeavesOldOutputsAndNothingElse) {
@@ -121,6 +123,7 @@ TEST_F(CookSourceTest, FailureLeavesOldOutputsAndNothingElse) {
 }
 
 TEST_F(CookSourceTest, NameNoDepfileCanHoldFailsBeforeAnythingIsWritten) {
+    if (!test::has_posix_files()) GTEST_SKIP() << "names of files hold no line break here";
     const auto source = write("a\nb.tiles", "size 1");
     EXPECT_THAT(message_of([&] { cook_source(registry_, source, path("o"), {.depfile = path("d")}); }),
                 HasSubstr("a line break"));
@@ -162,7 +165,7 @@ TEST_F(CookSourceTest, OutputThatCannotBeWrittenIsRefusedBeforeTheBake) {
     EXPECT_THAT(message_of([&] { cook_source(registry_, source, path("new"), {.depfile = "/dev/full"}); }),
                 HasSubstr("--depfile /dev/full"));
     EXPECT_THAT(message_of([&] { cook_source(registry_, source, path("a.tiles/under_a_file")); }),
-                HasSubstr("Not a directory"));
+                HasSubstr("a file that can be written"));
 }
 
 TEST_F(CookSourceTest, WhatIsNoSourceIsRefused) {
@@ -177,10 +180,11 @@ TEST_F(CookSourceTest, WhatIsNoSourceIsRefused) {
 
 TEST(Depfile, RelativeSourcesAreMadeAbsoluteAndTheOutputIsLeftAlone) {
     EXPECT_EQ(depfile_text("a.cooked", {"a.tiles"}),
-              "a.cooked: \\\n  " + (std::filesystem::current_path() / "a.tiles").string() + "\n");
+              "a.cooked: \\\n  " + (std::filesystem::current_path() / "a.tiles").generic_string() + "\n");
 }
 
 TEST(Depfile, SpecialCharactersAreEscapedAsCompilersDo) {
+    if (!test::has_posix_files()) GTEST_SKIP() << "names of files hold no backslash here";
     EXPECT_EQ(depfile_text("a b", {"/x y", "/a#b", "/$HOME", "/a\\b", "/a\\ b", "/a:b", "/\xff\u00e9"}),
               "a\\ b: \\\n  /x\\ y \\\n  /a\\#b \\\n  /$$HOME \\\n  /a\\b \\\n  /a\\\\\\ b \\\n  /a:b \\\n"
               "  /\xff\u00e9\n");

@@ -58,11 +58,11 @@ std::vector<std::byte> made_file(Imf::Header header, const std::vector<std::stri
     }
     if (tiled) {
         header.setTileDescription(Imf::TileDescription(3, 2, Imf::ONE_LEVEL));
-        Imf::TiledOutputFile file(path.c_str(), header);
+        Imf::TiledOutputFile file(path.string().c_str(), header);
         file.setFrameBuffer(buffer);
         file.writeTiles(0, file.numXTiles() - 1, 0, file.numYTiles() - 1);
     } else {
-        Imf::OutputFile file(path.c_str(), header);
+        Imf::OutputFile file(path.string().c_str(), header);
         file.setFrameBuffer(buffer);
         file.writePixels(2);
     }

@@ -62,6 +62,7 @@ TEST(ImageLimits, VariableRaisesTheMemory) {
 
 TEST(ImageLimits, VariableThatIsNoSizeIsRefused) {
     for (const char* value : {"", "x", "4x", "-1", "0", "399", "1e9", "nan", "99999999999999999999"}) {
+        if (*value == '\0' && !rowland::test::has_posix_files()) continue;  // no variable there is empty
         const MemoryVariable bad(value);
         EXPECT_THAT(message_of([] { decoded_limit(0); }), HasSubstr("ROWLAND_IMAGE_MEMORY")) << value;
     }
