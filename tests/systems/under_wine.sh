@@ -8,7 +8,7 @@
 # minutes.
 # example: ./rowland windows && tests/systems/under_wine.sh /tmp/wine
 set -euo pipefail
-[ $# -eq 1 ] || { sed -n '2,7s/^# //p' "$0" >&2; exit 2; }
+[ $# -eq 1 ] || { sed -n '2,9s/^# //p' "$0" >&2; exit 2; }
 source=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 release=$source/build/release
 # OpenGL under Wine is the display's.
@@ -21,9 +21,14 @@ failed=0
 say() { printf '%s\n' "$*"; }
 # check NAME COMMAND...
 check() {
-    local name=$1 begin=$SECONDS
+    local name=$1 begin=$SECONDS status
     shift
-    if (set -e; "$@") >"$folder/$name.log" 2>&1; then
+    # "set -e" does not hold in a condition.
+    set +e
+    (set -e; "$@") >"$folder/$name.log" 2>&1
+    status=$?
+    set -e
+    if [ $status -eq 0 ]; then
         say "$name: passed in $((SECONDS - begin)) s"
     else
         say "$name: failed, see $folder/$name.log"

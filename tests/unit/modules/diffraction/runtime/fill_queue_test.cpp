@@ -84,16 +84,20 @@ TEST(FillQueue, KeepsWhyThereIsNoMap) {
 }
 
 TEST(FillQueue, WaitsNoLongerThanItIsAskedAndEndsWithAJobThatRuns) {
+    std::atomic<bool> started = false;
     std::atomic<bool> ended = false;
     {
         FillQueue queue;
         const auto endless = queue.add([&](const std::stop_token& stop) {
+            started = true;
+            started.notify_one();
             while (!stop.stop_requested()) std::this_thread::yield();
             ended = true;
             return FilledMap{};
         });
         queue.wait(*endless, std::chrono::milliseconds(5));
         EXPECT_FALSE(queue.is_done(*endless));
+        started.wait(false);
     }
     EXPECT_TRUE(ended);
 }
