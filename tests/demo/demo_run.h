@@ -18,7 +18,7 @@ inline std::filesystem::path result(const std::string& name) {
 
 /// Runs the demo without a window; its exit code.
 inline int run_demo(const std::string& arguments) {
-    const Ended ended = run(command(ROWLAND_DEMO, "--headless " + arguments));
+    const Ended ended = run(command(ROWLAND_DEMO, "--headless " + arguments), {.limit = std::chrono::minutes(10)});
     std::fputs(ended.err.c_str(), stderr);
     return ended.code;
 }

@@ -14,7 +14,6 @@
 #pragma GCC diagnostic pop
 
 #include <cmath>
-#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <memory>
@@ -23,7 +22,7 @@
 
 #include "engine/image/byte_image.h"
 #include "engine/image/image.h"
-#include "tests/support/program.h"
+#include "tests/demo/demo_run.h"
 
 namespace rowland {
 namespace {
@@ -44,10 +43,7 @@ Picture read_png(const std::filesystem::path& path) {
 }
 
 int run_demo(const std::string& arguments) {
-    const test::Ended ended =
-        test::run(test::command(ROWLAND_DEMO, "--headless --disc --width 480 --height 270 " + arguments));
-    std::fputs(ended.err.c_str(), stderr);
-    return ended.code;
+    return test::run_demo("--disc --width 480 --height 270 " + arguments);
 }
 
 std::string cooked_probe(const std::string& name) {

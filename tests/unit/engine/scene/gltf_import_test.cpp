@@ -134,7 +134,9 @@ TEST(GltfImport, FilesAreReadOnlyFromTheGltfsFolder) {
     EXPECT_THAT(refusal("../secret.bin"), HasSubstr("outside the glTF's folder"));
     EXPECT_THAT(refusal("parts/../../secret.bin"), HasSubstr("outside the glTF's folder"));
     EXPECT_THAT(refusal("%2e%2e/secret.bin"), HasSubstr("outside the glTF's folder"));
-    EXPECT_THAT(refusal((temporary.path() / "secret.bin").string()), HasSubstr("expected the name of a file"));
+    EXPECT_THAT(
+        refusal((temporary.path() / "secret.bin").string()),
+        HasSubstr(rowland::test::has_posix_files() ? "outside the glTF's folder" : "expected the name of a file"));
     EXPECT_THAT(refusal("file:///etc/passwd"), HasSubstr("expected the name of a file"));
     EXPECT_THAT(refusal(""), HasSubstr("expected the name of a file"));
     EXPECT_THAT(refusal("parts"), HasSubstr("not a regular file"));
