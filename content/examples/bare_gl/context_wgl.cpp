@@ -1,6 +1,4 @@
 #include <windows.h>
-//
-#include <epoxy/wgl.h>
 
 #include <stdexcept>
 
@@ -17,13 +15,14 @@ void make_headless_context() {
     format.iPixelType = PFD_TYPE_RGBA;
     format.cColorBits = 24;
     SetPixelFormat(device, ChoosePixelFormat(device, &format), &format);
-    // Only a context tells how to make one of a version.
+    // Only a context tells how to make one of a version. WGL is called past libepoxy, which in a static library crashes
+    // as a second context becomes current.
     const HGLRC old = wglCreateContext(device);
     wglMakeCurrent(device, old);
-    constexpr int attributes[] = {WGL_CONTEXT_MAJOR_VERSION_ARB, 4, WGL_CONTEXT_MINOR_VERSION_ARB, 5, 0};
-    const HGLRC context = epoxy_has_wgl_extension(device, "WGL_ARB_create_context")
-                              ? wglCreateContextAttribsARB(device, nullptr, attributes)
-                              : nullptr;
+    using Create = HGLRC(WINAPI*)(HDC, HGLRC, const int*);
+    const auto create = reinterpret_cast<Create>(wglGetProcAddress("wglCreateContextAttribsARB"));
+    constexpr int attributes[] = {0x2091, 4, 0x2092, 5, 0};  // WGL_CONTEXT_MAJOR_VERSION_ARB, _MINOR_
+    const HGLRC context = create != nullptr ? create(device, nullptr, attributes) : nullptr;
     if (context == nullptr || wglMakeCurrent(device, context) == FALSE)
         throw std::runtime_error("no OpenGL 4.5 without a window");
     wglDeleteContext(old);
