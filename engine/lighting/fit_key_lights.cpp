@@ -309,7 +309,9 @@ std::vector<KeyLight> by_importance(const Fit& fit) {
     for (const std::size_t k : fit.by_importance()) {
         const Eigen::RowVector3d flux = fit.fluxes().row(static_cast<Eigen::Index>(k));
         const LobeShape& shape = fit.lobes()[k].shape;
-        if (flux.any()) keys.push_back({shape.direction, {flux[0], flux[1], flux[2]}, shape.concentration});
+        // The last bits of a fit differ between C libraries, and cooked files shall not.
+        const glm::vec3 rounded(flux[0], flux[1], flux[2]);
+        if (flux.any()) keys.push_back({shape.direction, glm::dvec3(rounded), shape.concentration});
     }
     return keys;
 }

@@ -237,7 +237,9 @@ struct TreeSum {
         const float within = reach + (opened ? 1.7F * node.size : 0.0F);
         if (square > within * within) return;
         if (!opened) {
-            sum += static_cast<double>(std::exp(-0.5F * concentration * square)) * glm::dvec3(node.flux);
+            // In double: last bits of a float, which differ between C libraries, would be 1e-6 of a flux that is
+            // fitted.
+            sum += std::exp(static_cast<double>(-0.5F * concentration * square)) * glm::dvec3(node.flux);
             return;
         }
         for (int i = 0; i < 4; ++i) add(depth + 1, face, 2 * column + i % 2, 2 * row + i / 2);

@@ -181,6 +181,10 @@ SolvedEfficiencies solve_efficiencies(const Relief& relief, const Substrate& sub
             result.grid.set(o, row, samples);
         }
     if (symmetric) make_symmetric(result.grid);
+    // A solve magnifies the last bits of the C library's functions a million times, and cooked files shall have the
+    // same bytes on all systems.
+    constexpr float kUnit = 0x1p-14F;
+    for (float& value : result.grid.values) value = kUnit * std::round(value / kUnit);
     return result;
 }
 

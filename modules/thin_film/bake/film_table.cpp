@@ -203,8 +203,8 @@ TableError measure(const Averages& averages, const FilmTable& table, const Table
         error.largest = std::max(error.largest, of.largest);
         error.rms += of.rms / static_cast<double>(errors.size());
     }
-    error.rms = std::sqrt(error.rms);
-    return error;
+    // Doubles would have last bits that differ between C libraries, and cooked files shall not.
+    return {.largest = static_cast<float>(error.largest), .rms = static_cast<float>(std::sqrt(error.rms))};
 }
 
 }  // namespace

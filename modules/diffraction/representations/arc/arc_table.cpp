@@ -162,22 +162,22 @@ ArcTable bake(const Grating& grating, const ArcSettings& settings) {
     MatrixXd weights = leading_weights(weighed(values, table.terms, table.bands), table.rank);
     // The weights' columns are orthonormal, so these are the best factors for them, whatever the light.
     MatrixXd factors = weights.transpose() * values;
-    std::vector<double> row(static_cast<std::size_t>(values.cols()));
     for (Eigen::Index r = 0; r < table.rank; ++r) {
         const double scale = weights(largest_of(weights.col(r)), r);
         weights.col(r) /= scale;
         factors.row(r) *= scale;
-        for (std::size_t i = 0; i < row.size(); ++i) row[i] = factors(r, static_cast<Eigen::Index>(i));
-        math::drop_last_bits(row);
+    }
+    // All at once: later factors are smaller, and their last bits are those of the first.
+    math::drop_last_bits({factors.data(), static_cast<std::size_t>(factors.size())});
+    math::drop_last_bits({weights.data(), static_cast<std::size_t>(weights.size())});
+    for (Eigen::Index r = 0; r < table.rank; ++r)
         for (Eigen::Index k = 0; k < values.cols() / kTermColumns; ++k) {
             glm::mat3 factor;
             for (int c = 0; c < 3; ++c)
                 for (int o = 0; o < 3; ++o)
-                    factor[c][o] =
-                        static_cast<float>(row[static_cast<std::size_t>(k * kTermColumns + Eigen::Index{3} * c + o)]);
+                    factor[c][o] = static_cast<float>(factors(r, k * kTermColumns + Eigen::Index{3} * c + o));
             table.factors.push_back(factor);
         }
-    }
     const std::size_t layers = weight_layers(table.rank);
     const auto texels = static_cast<std::size_t>(values.rows());
     std::vector<double> packed(layers * texels * kTexelComponents, 0.0);

@@ -3,7 +3,8 @@
 
 #include <algorithm>
 #include <atomic>
-#include <semaphore>
+#include <condition_variable>
+#include <mutex>
 #include <stdexcept>
 
 #include "engine/core/error.h"
@@ -14,6 +15,26 @@ namespace rowland::diffraction {
 namespace {
 
 using namespace std::chrono_literals;
+
+/// std::counting_semaphore of GCC 12.2 may sleep for ever (GCC bug 104928).
+class Semaphore {
+ public:
+    void release(int count = 1) {
+        const std::scoped_lock guard(lock_);
+        count_ += count;
+        changed_.notify_all();
+    }
+    void acquire() {
+        std::unique_lock guard(lock_);
+        changed_.wait(guard, [&] { return count_ > 0; });
+        --count_;
+    }
+
+ private:
+    std::mutex lock_;
+    std::condition_variable changed_;
+    int count_ = 0;
+};
 
 /// Maps of one texel; a test says when a full one may be filled.
 class MapFillingTest : public rowland::test::GlTest {
@@ -35,7 +56,7 @@ class MapFillingTest : public rowland::test::GlTest {
     std::shared_ptr<const lighting::LightSamples> texels_ = std::make_shared<const lighting::LightSamples>();
     std::atomic<int> coarse_count_ = 0;
     std::atomic<int> full_count_ = 0;
-    std::counting_semaphore<> full_maps_{0};
+    Semaphore full_maps_;
     std::shared_ptr<const FillMap> fill_ =
         std::make_shared<const FillMap>([this](const MapInput&, MapDetail detail, const std::stop_token&) -> FilledMap {
             if (detail == MapDetail::Full) {
@@ -125,8 +146,8 @@ TEST_F(MapFillingTest, CoarseMapsFollowAnObjectThatTurnsInEveryFrame) {
 
 /// If each frame began another map, an object whose frames are shorter than a fill would never get one.
 TEST_F(MapFillingTest, AnObjectThatTurnsInEveryFrameWaitsForTheMapThatWasBegun) {
-    std::counting_semaphore<> begun{0};
-    std::counting_semaphore<> coarse_maps{0};
+    Semaphore begun;
+    Semaphore coarse_maps;
     std::atomic<int> coarse = 0;
     std::atomic<bool> given_up = false;
     fill_ = std::make_shared<const FillMap>(

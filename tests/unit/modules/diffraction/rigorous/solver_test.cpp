@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "engine/core/error.h"
+#include "tests/support/environment.h"
 #include "tests/support/expect.h"
 
 namespace rowland::diffraction {
@@ -87,14 +88,15 @@ TEST(RigorousSolver, LosslessReliefsKeepTheirEnergy) {
             const Relief relief = with_shape(
                 shape, films ? std::vector<DielectricFilm>{{2.1, 80}, {1.4, 100}} : std::vector<DielectricFilm>{},
                 films ? 1.3 : 1.0);
-            // Fields at the edges of a blazed relief converge last.
+            // Fields at the edges of a blazed relief converge last, and their solve magnifies what rounding leaves, of
+            // which MinGW's functions leave more.
             const bool blazed = std::holds_alternative<BlazedProfile>(shape);
+            const double tolerance = !blazed ? 1e-9 : test::has_posix_files() ? 1e-7 : 2e-7;
             const int truncation = first_truncation(relief, 1.5, 500.0) + (blazed ? 20 : 6);
             const OrderEfficiencies solved = solve(relief, 1.5, 500.0, 0.23, truncation);
             for (std::size_t i = 0; i < solved.v_g.size(); ++i)
                 for (const Light light : {Light::TE, Light::TM})
-                    EXPECT_NEAR(solved.sum(light, solved.first + static_cast<int>(i)), 1.0, blazed ? 1e-7 : 1e-9)
-                        << shape.index();
+                    EXPECT_NEAR(solved.sum(light, solved.first + static_cast<int>(i)), 1.0, tolerance) << shape.index();
         }
 }
 
