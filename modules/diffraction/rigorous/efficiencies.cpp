@@ -96,6 +96,20 @@ void limit_to(double most, EfficiencyGrid& grid) {
     for (float& value : grid.values) value *= static_cast<float>(most / largest);
 }
 
+/// Rounds all values to multiples of 2⁻¹⁴ of a power of two above the largest of orders other than 0. A solve magnifies
+/// the last bits of the C library's functions a million times, and cooked files shall have the same bytes on all
+/// systems.
+void drop_last_digits(EfficiencyGrid& grid) {
+    const std::size_t nodes = grid.values.size() / grid.orders.size();
+    float largest = 0.0F;
+    for (std::size_t i = 0; i < grid.values.size(); ++i)
+        if (grid.orders[i / nodes] != 0) largest = std::max(largest, grid.values[i]);
+    int exponent = 0;
+    std::frexp(largest, &exponent);
+    const float unit = std::ldexp(1.0F, exponent - 14);
+    for (float& value : grid.values) value = unit * std::round(value / unit);
+}
+
 /// As the relief may be on either side of a sheet, replaces each efficiency by the mean of those of both sides: from
 /// s_g to v_g, and from v_g to s_g. Samples are in the order of v_g; their directions are closed under v_g → mλ/d −
 /// v_g.
@@ -181,10 +195,7 @@ SolvedEfficiencies solve_efficiencies(const Relief& relief, const Substrate& sub
             result.grid.set(o, row, samples);
         }
     if (symmetric) make_symmetric(result.grid);
-    // A solve magnifies the last bits of the C library's functions a million times, and cooked files shall have the
-    // same bytes on all systems.
-    constexpr float kUnit = 0x1p-14F;
-    for (float& value : result.grid.values) value = kUnit * std::round(value / kUnit);
+    drop_last_digits(result.grid);
     return result;
 }
 

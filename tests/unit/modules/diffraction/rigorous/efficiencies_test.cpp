@@ -55,6 +55,18 @@ TEST(RigorousEfficiencies, TheGridIsWhatSingleSolvesGive) {
                         grid.at(-order, 500.0, EfficiencyGrid::view_at(EfficiencyGrid::kViews - 1 - view)), 1e-8);
 }
 
+/// The digits that are dropped are those of the brightest order but 0.
+TEST(RigorousEfficiencies, OfAFaintReliefHaveAsManyDigits) {
+    const Relief faint{.pitch_nm = 740.0, .shape = LamellarProfile{0.43, 1.0}};
+    const SolvedEfficiencies solved = solve_efficiencies(faint, colour::Metal::Al, "faint");
+    const std::complex<double> index = colour::metal_index(colour::Metal::Al, 550.0);
+    for (const double s_g : {-0.2, 0.0, 0.15}) {
+        const double exact = solve(faint, index, 550.0, s_g, first_truncation(faint, index, 550.0) + 8).reflected(1);
+        EXPECT_LT(exact, 3e-4);
+        EXPECT_NEAR(solved.grid.at(1, 550.0, s_g), exact, 0.01 * exact);
+    }
+}
+
 /// Also of two gratings that differ in their films alone, one after the other.
 TEST(RigorousEfficiencies, AFilmOnTheGroovesIsSolvedWithThem) {
     Grating disc{.pitch_nm = 740.0, .profile = LamellarProfile{0.43, 100.0}};
