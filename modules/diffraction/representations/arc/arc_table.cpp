@@ -167,9 +167,10 @@ ArcTable bake(const Grating& grating, const ArcSettings& settings) {
         weights.col(r) /= scale;
         factors.row(r) *= scale;
     }
-    // All at once: later factors are smaller, and their last bits are those of the first.
-    math::drop_last_bits({factors.data(), static_cast<std::size_t>(factors.size())});
-    math::drop_last_bits({weights.data(), static_cast<std::size_t>(weights.size())});
+    // All at once: later factors are smaller, and their last bits are those of the first. Both are stored as floats.
+    constexpr int kBits = 36;
+    math::drop_last_bits({factors.data(), static_cast<std::size_t>(factors.size())}, kBits);
+    math::drop_last_bits({weights.data(), static_cast<std::size_t>(weights.size())}, kBits);
     for (Eigen::Index r = 0; r < table.rank; ++r)
         for (Eigen::Index k = 0; k < values.cols() / kTermColumns; ++k) {
             glm::mat3 factor;
