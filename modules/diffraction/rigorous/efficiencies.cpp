@@ -96,9 +96,9 @@ void limit_to(double most, EfficiencyGrid& grid) {
     for (float& value : grid.values) value *= static_cast<float>(most / largest);
 }
 
-/// Rounds all values to multiples of 2⁻¹⁴ of a power of two above the largest of orders other than 0. A solve magnifies
-/// the last bits of the C library's functions a million times, and cooked files shall have the same bytes on all
-/// systems.
+/// Rounds all values to multiples of 2⁻¹⁴ of a power of two above the largest of orders other than 0, or of 2⁻²⁴. A
+/// solve magnifies the last bits of the C library's functions a million times, and cooked files shall have the same
+/// bytes on all systems.
 void drop_last_digits(EfficiencyGrid& grid) {
     const std::size_t nodes = grid.values.size() / grid.orders.size();
     float largest = 0.0F;
@@ -106,7 +106,7 @@ void drop_last_digits(EfficiencyGrid& grid) {
         if (grid.orders[i / nodes] != 0) largest = std::max(largest, grid.values[i]);
     int exponent = 0;
     std::frexp(largest, &exponent);
-    const float unit = std::ldexp(1.0F, exponent - 14);
+    const float unit = std::ldexp(1.0F, std::max(exponent - 14, -24));
     for (float& value : grid.values) value = unit * std::round(value / unit);
 }
 

@@ -67,6 +67,14 @@ TEST(RigorousEfficiencies, OfAFaintReliefHaveAsManyDigits) {
     }
 }
 
+TEST(RigorousEfficiencies, OfAFlatReliefAreAMirrors) {
+    const Relief flat{.pitch_nm = 740.0, .shape = LamellarProfile{0.43, 0.0}};
+    const SolvedEfficiencies solved = solve_efficiencies(flat, colour::Metal::Al, "flat");
+    const std::complex<double> index = colour::metal_index(colour::Metal::Al, 550.0);
+    EXPECT_NEAR(solved.grid.at(0, 550.0, 0.0), std::norm((1.0 - index) / (1.0 + index)), 1e-3);
+    EXPECT_EQ(solved.grid.at(1, 550.0, 0.0), 0.0);
+}
+
 /// Also of two gratings that differ in their films alone, one after the other.
 TEST(RigorousEfficiencies, AFilmOnTheGroovesIsSolvedWithThem) {
     Grating disc{.pitch_nm = 740.0, .profile = LamellarProfile{0.43, 100.0}};
