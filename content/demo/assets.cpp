@@ -4,6 +4,7 @@
 
 #include <array>
 
+#include "engine/core/program.h"
 #include "engine/core/system.h"
 #include "modules/asset_types.h"
 
@@ -58,7 +59,7 @@ std::vector<std::filesystem::path> probe_paths(const Options& options) {
 }
 
 std::filesystem::path default_cooked_folder() {
-    return program_file().parent_path().parent_path() / "cooked";
+    return program_prefix() / "cooked";
 }
 
 }  // namespace rowland::demo

@@ -20,7 +20,6 @@
 #include "engine/core/log.h"
 #include "engine/core/parallel.h"
 #include "engine/core/program.h"
-#include "engine/core/system.h"
 #include "engine/gpu/context.h"
 #include "engine/gpu/framebuffer.h"
 #include "engine/ui/ui.h"
@@ -131,7 +130,7 @@ std::filesystem::path default_light(const std::vector<std::filesystem::path>& li
 
 /// The folder of the recipes of captured probes, among the cooked assets beside this program.
 std::filesystem::path capture_recipes() {
-    return program_file().parent_path().parent_path() / "cooked" / "recipes";
+    return program_prefix() / "cooked" / "recipes";
 }
 
 SessionSettings session_settings(const Options& options, bool still) {

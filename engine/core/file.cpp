@@ -48,44 +48,28 @@ Hash128 Hasher::digest() const {
 
 namespace {
 
-/// A regular file that is open for reading.
-class SourceFile {
- public:
+/// A regular file that is open for reading, and its size in bytes.
+struct SourceFile {
     /// Throws Error (input) for what is no readable file, and for a file larger than `max_bytes`.
     SourceFile(const std::filesystem::path& path, std::uint64_t max_bytes, const std::string& remedy = "")
-        : path_(path), file_(OpenFile::for_reading(path, failure_)) {
-        if (!file_.is_open())
-            refuse_input(path.string(), "", fmt::format("cannot be opened: {}", failure_.message()), "a readable file");
-        const std::optional<std::uint64_t> size = file_.regular_size(failure_);
-        if (failure_) fail_action(path, "stat", failure_);
-        if (!size) refuse_input(path.string(), "", "not a regular file", "a readable file");
-        size_ = *size;
-        if (size_ > max_bytes)
-            refuse_input(path.string(), "", fmt::format("{} bytes", size_), fmt::format("at most {} bytes", max_bytes),
-                         remedy);
+        : file(OpenFile::for_reading(path)) {
+        const std::optional<std::uint64_t> regular = file.regular_size();
+        if (!regular) refuse_input(path.string(), "", "not a regular file", "a readable file");
+        if (*regular > max_bytes)
+            refuse_input(path.string(), "", fmt::format("{} bytes", *regular),
+                         fmt::format("at most {} bytes", max_bytes), remedy);
+        size = static_cast<std::size_t>(*regular);
     }
 
-    std::size_t size() const { return static_cast<std::size_t>(size_); }
-
-    /// Fills `buffer`, or as much of it as the file still holds; returns the number of bytes read.
-    std::size_t read(std::span<std::byte> buffer) {
-        const std::size_t done = file_.read(buffer, failure_);
-        if (failure_) fail_action(path_, "reading", failure_);
-        return done;
-    }
-
- private:
-    const std::filesystem::path& path_;
-    std::error_code failure_;
-    OpenFile file_;
-    std::uint64_t size_ = 0;
+    OpenFile file;
+    std::size_t size = 0;
 };
 
 template <typename Buffer>
 Buffer read_whole(const std::filesystem::path& path, std::uint64_t max_bytes, const std::string& remedy = "") {
-    SourceFile file(path, max_bytes, remedy);
-    Buffer data(file.size(), {});
-    data.resize(file.read(std::as_writable_bytes(std::span(data))));  // the file may be truncated while we read
+    const SourceFile source(path, max_bytes, remedy);
+    Buffer data(source.size, {});
+    data.resize(source.file.read(std::as_writable_bytes(std::span(data))));  // the file may be truncated while we read
     return data;
 }
 
@@ -98,6 +82,10 @@ std::filesystem::path folder_of(const std::filesystem::path& file) {
 std::filesystem::path temporary_name(const std::filesystem::path& target) {
     std::random_device random;
     return folder_of(target) / fmt::format(".rowland-{:08x}{:08x}", random(), random());
+}
+
+void refuse_unreadable(const std::filesystem::path& path, const std::error_code& reason) {
+    refuse_input(path.string(), "", fmt::format("cannot be opened: {}", reason.message()), "a readable file");
 }
 
 void fail_action(const std::filesystem::path& path, const char* action, const std::error_code& reason) {
@@ -129,18 +117,18 @@ std::string read_text_file(const std::filesystem::path& path, std::uint64_t max_
 
 std::vector<std::byte> read_beginning(const std::filesystem::path& path, std::size_t size) {
     std::vector<std::byte> buffer(size);
-    buffer.resize(SourceFile(path, std::numeric_limits<std::uint64_t>::max()).read(buffer));
+    buffer.resize(SourceFile(path, std::numeric_limits<std::uint64_t>::max()).file.read(buffer));
     if (buffer.empty()) refuse_input(path.string(), "", "an empty file", "a readable file");
     return buffer;
 }
 
 std::optional<Hash128> hash_file(const std::filesystem::path& path) {
     try {
-        SourceFile file(path, kMaximumHashedBytes);
+        const SourceFile source(path, kMaximumHashedBytes);
         Hasher hasher;
         std::vector<std::byte> buffer(1 << 20);
         std::uint64_t total = 0;
-        while (const std::size_t count = file.read(buffer)) {
+        while (const std::size_t count = source.file.read(buffer)) {
             hasher.bytes(std::span(buffer).first(count));
             total += count;
             if (total > kMaximumHashedBytes) return std::nullopt;  // it grows while we read
@@ -173,31 +161,24 @@ void write_file_atomic(const std::filesystem::path& path, std::string_view text)
     write_file_atomic(path, std::as_bytes(std::span(text.data(), text.size())));
 }
 
-FileLock::FileLock(std::filesystem::path path, std::unique_ptr<OpenFile> file)
-    : path_(std::move(path)), file_(std::move(file)) {}
+FileLock::FileLock(std::unique_ptr<OpenFile> file) : file_(std::move(file)) {}
 
 FileLock::FileLock(FileLock&& other) noexcept = default;
 
 FileLock::~FileLock() = default;
 
 std::optional<FileLock> FileLock::try_take(const std::filesystem::path& file) {
-    std::error_code failure;
-    auto opened = std::make_unique<OpenFile>(OpenFile::for_appending(file, failure));
-    if (failure) fail_action(file, "opening", failure);
+    auto opened = std::make_unique<OpenFile>(OpenFile::for_appending(file));
     if (!opened->try_lock()) return std::nullopt;
-    return FileLock(file, std::move(opened));
+    return FileLock(std::move(opened));
 }
 
 void FileLock::append(std::string_view text) {
-    std::error_code failure;
-    file_->write(std::as_bytes(std::span(text.data(), text.size())), failure);
-    if (failure) fail_action(path_, "writing", failure);
+    file_->write(std::as_bytes(std::span(text.data(), text.size())));
 }
 
 void FileLock::cut(std::uint64_t size) {
-    std::error_code failure;
-    file_->cut(size, failure);
-    if (failure) fail_action(path_, "shortening", failure);
+    file_->cut(size);
 }
 
 namespace {

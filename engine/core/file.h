@@ -86,8 +86,7 @@ class FileLock {
     void cut(std::uint64_t size);
 
  private:
-    FileLock(std::filesystem::path path, std::unique_ptr<OpenFile> file);
-    std::filesystem::path path_;
+    explicit FileLock(std::unique_ptr<OpenFile> file);
     std::unique_ptr<OpenFile> file_;
 };
 

@@ -69,10 +69,14 @@ std::filesystem::path helper_program(const std::string& name) {
                 "a helper program of Rowland");
 }
 
+std::filesystem::path program_prefix() {
+    return program_file().parent_path().parent_path();
+}
+
 std::filesystem::path resources_folder(const std::filesystem::path& sources) {
     std::error_code unknown;
     if (std::filesystem::exists(sources / "content", unknown)) return sources;
-    return program_file().parent_path().parent_path();
+    return program_prefix();
 }
 
 std::string version_text(const std::string& program) {

@@ -15,8 +15,11 @@ int run_program(const std::function<int()>& body);
 /// again.
 std::string version_text(const std::string& program);
 
+/// The folder above the program's, of a build or an installation: beside the programs lie cooked/, content/ and fonts/.
+std::filesystem::path program_prefix();
+
 /// The folder that holds content/ and the shaders: `sources`, from which the program was built; or, where that is not
-/// on this machine, the folder above the program's.
+/// on this machine, program_prefix().
 std::filesystem::path resources_folder(const std::filesystem::path& sources);
 
 /// The folder of helper programs that the library was built for. Weak: find_package(Rowland) defines it for other

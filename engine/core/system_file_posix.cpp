@@ -24,16 +24,16 @@ int descriptor_of(const OpenFile& file) {
 
 }  // namespace
 
-OpenFile OpenFile::for_reading(const std::filesystem::path& path, std::error_code& failure) {
+OpenFile OpenFile::for_reading(const std::filesystem::path& path) {
     // Non-blocking: opening a pipe must not wait for a writer. It changes nothing for regular files.
-    OpenFile file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY));
-    if (!file.is_open()) failure = last_failure();
+    OpenFile file(path, ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY));
+    if (!file.is_open()) refuse_unreadable(path, last_failure());
     return file;
 }
 
-OpenFile OpenFile::for_appending(const std::filesystem::path& path, std::error_code& failure) {
-    OpenFile file(::open(path.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0666));
-    if (!file.is_open()) failure = last_failure();
+OpenFile OpenFile::for_appending(const std::filesystem::path& path) {
+    OpenFile file(path, ::open(path.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0666));
+    if (!file.is_open()) fail_action(path, "opening", last_failure());
     return file;
 }
 
@@ -41,39 +41,38 @@ OpenFile::~OpenFile() {
     if (is_open()) ::close(descriptor_of(*this));
 }
 
-std::optional<std::uint64_t> OpenFile::regular_size(std::error_code& failure) const {
+std::optional<std::uint64_t> OpenFile::regular_size() const {
     struct stat status = {};
-    if (::fstat(descriptor_of(*this), &status) != 0) failure = last_failure();
+    if (::fstat(descriptor_of(*this), &status) != 0) fail_action(path_, "stat", last_failure());
     if (!S_ISREG(status.st_mode)) return std::nullopt;
     return static_cast<std::uint64_t>(status.st_size);
 }
 
-std::size_t OpenFile::read(std::span<std::byte> buffer, std::error_code& failure) const {
+std::size_t OpenFile::read(std::span<std::byte> buffer) const {
     std::size_t done = 0;
     while (done < buffer.size()) {
         const ssize_t count = ::read(descriptor_of(*this), buffer.data() + done, buffer.size() - done);
         if (count < 0 && errno == EINTR) continue;
-        if (count < 0) failure = last_failure();
-        if (count <= 0) break;
+        if (count < 0) fail_action(path_, "reading", last_failure());
+        if (count == 0) break;
         done += static_cast<std::size_t>(count);
     }
     return done;
 }
 
-void OpenFile::write(std::span<const std::byte> data, std::error_code& failure) const {
+void OpenFile::write(std::span<const std::byte> data) const {
     while (!data.empty()) {
         const ssize_t count = ::write(descriptor_of(*this), data.data(), data.size());
-        if (count >= 0) {
+        if (count >= 0)
             data = data.subspan(static_cast<std::size_t>(count));
-        } else if (errno != EINTR) {
-            failure = last_failure();
-            return;
-        }
+        else if (errno != EINTR)
+            fail_action(path_, "writing", last_failure());
     }
 }
 
-void OpenFile::cut(std::uint64_t size, std::error_code& failure) const {
-    if (::ftruncate(descriptor_of(*this), static_cast<off_t>(size)) != 0) failure = last_failure();
+void OpenFile::cut(std::uint64_t size) const {
+    if (::ftruncate(descriptor_of(*this), static_cast<off_t>(size)) != 0)
+        fail_action(path_, "shortening", last_failure());
 }
 
 bool OpenFile::try_lock() const {
@@ -84,67 +83,56 @@ bool OpenFile::try_lock() const {
     return true;
 }
 
+namespace {
+
+/// `make(name)` creates a file of that name beside `target`; it returns a negative number, with errno EEXIST, if the
+/// name is taken. Returns what it returned, and the name in `temporary`.
+template <typename Make>
+int take_new_name(const std::filesystem::path& target, std::filesystem::path& temporary, const Make& make) {
+    for (int attempt = 0;; ++attempt) {
+        const std::filesystem::path name = temporary_name(target);
+        const int result = make(name.c_str());
+        if (result >= 0) {
+            temporary = name;
+            return result;
+        }
+        if (errno != EEXIST || attempt == kMostTemporaryNames)
+            fail_action(target, "creating a temporary file beside it", last_failure());
+    }
+}
+
 /// Where the file system supports O_TMPFILE the file has no name while it is written, so that a killed program leaves
 /// nothing. Its permissions follow the user's umask. (mkstemp's files are private, and the umask cannot be read without
 /// setting it for all threads.)
-struct Replacement::State {
-    explicit State(const std::filesystem::path& replaced) : target(replaced), file(create()) {}
-    ~State() {
-        if (!temporary.empty()) ::unlink(temporary.c_str());
-    }
-    State(const State&) = delete;
-    State& operator=(const State&) = delete;
+int create(const std::filesystem::path& target, std::filesystem::path& temporary) {
+    // A nameless file gets its name through /proc.
+    const bool can_be_named = ::access("/proc/self/fd", X_OK) == 0;
+    const int fd = can_be_named ? ::open(folder_of(target).c_str(), O_WRONLY | O_TMPFILE | O_CLOEXEC, 0666) : -1;
+    if (fd >= 0) return fd;
+    return take_new_name(target, temporary,
+                         [](const char* name) { return ::open(name, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666); });
+}
 
-    int create() {
-        // A nameless file gets its name through /proc.
-        const bool can_be_named = ::access("/proc/self/fd", X_OK) == 0;
-        const int fd = can_be_named ? ::open(folder_of(target).c_str(), O_WRONLY | O_TMPFILE | O_CLOEXEC, 0666) : -1;
-        if (fd >= 0) return fd;
-        return take_new_name(
-            [](const char* name) { return ::open(name, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666); });
-    }
+}  // namespace
 
-    /// `make(name)` creates the file; it returns a negative number, with errno EEXIST, if the name is taken.
-    template <typename Make>
-    int take_new_name(const Make& make) {
-        for (int attempt = 0;; ++attempt) {
-            const std::filesystem::path name = temporary_name(target);
-            const int result = make(name.c_str());
-            if (result >= 0) {
-                temporary = name;
-                return result;
-            }
-            if (errno != EEXIST || attempt == kMostTemporaryNames)
-                fail_action(target, "creating a temporary file beside it", last_failure());
-        }
-    }
+Replacement::Replacement(const std::filesystem::path& target)
+    : target_(target), file_(target, create(target, temporary_)) {}
 
-    const std::filesystem::path& target;
-    std::filesystem::path temporary;  ///< path of the new file while it has a name
-    OpenFile file;
-};
-
-Replacement::Replacement(const std::filesystem::path& target) : state_(std::make_unique<State>(target)) {}
-
-Replacement::~Replacement() = default;
-
-void Replacement::write(std::span<const std::byte> data) const {
-    std::error_code failure;
-    state_->file.write(data, failure);
-    if (failure) fail_action(state_->target, "writing", failure);
+Replacement::~Replacement() {
+    if (!temporary_.empty()) ::unlink(temporary_.c_str());
 }
 
 void Replacement::replace_target() {
-    const int fd = descriptor_of(state_->file);
-    if (::fsync(fd) != 0) fail_action(state_->target, "writing", last_failure());
-    if (state_->temporary.empty()) {
+    const int fd = descriptor_of(file_);
+    if (::fsync(fd) != 0) fail_action(target_, "writing", last_failure());
+    if (temporary_.empty()) {
         const std::string nameless = fmt::format("/proc/self/fd/{}", fd);
-        state_->take_new_name(
-            [&](const char* name) { return ::linkat(AT_FDCWD, nameless.c_str(), AT_FDCWD, name, AT_SYMLINK_FOLLOW); });
+        take_new_name(target_, temporary_, [&](const char* name) {
+            return ::linkat(AT_FDCWD, nameless.c_str(), AT_FDCWD, name, AT_SYMLINK_FOLLOW);
+        });
     }
-    if (std::rename(state_->temporary.c_str(), state_->target.c_str()) != 0)
-        fail_action(state_->target, "renaming", last_failure());
-    state_->temporary.clear();
+    if (std::rename(temporary_.c_str(), target_.c_str()) != 0) fail_action(target_, "renaming", last_failure());
+    temporary_.clear();
 }
 
 void require_no_device(const std::filesystem::path& path) {

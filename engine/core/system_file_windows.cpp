@@ -22,8 +22,8 @@ HANDLE handle_of(const OpenFile& file) {
 
 OpenFile open_file(const std::filesystem::path& path, DWORD access, DWORD share, DWORD disposition) {
     // This flag also opens folders, which callers tell apart.
-    return OpenFile(reinterpret_cast<std::intptr_t>(CreateFileW(long_path(path).c_str(), access, share, nullptr,
-                                                                disposition, FILE_FLAG_BACKUP_SEMANTICS, nullptr)));
+    return {path, reinterpret_cast<std::intptr_t>(CreateFileW(long_path(path).c_str(), access, share, nullptr,
+                                                              disposition, FILE_FLAG_BACKUP_SEMANTICS, nullptr))};
 }
 
 bool is_regular(const OpenFile& file, BY_HANDLE_FILE_INFORMATION& information) {
@@ -38,15 +38,15 @@ DWORD transfer_size(std::size_t left) {
 
 }  // namespace
 
-OpenFile OpenFile::for_reading(const std::filesystem::path& path, std::error_code& failure) {
+OpenFile OpenFile::for_reading(const std::filesystem::path& path) {
     OpenFile file = open_file(path, GENERIC_READ, kShareAll, OPEN_EXISTING);
-    if (!file.is_open()) failure = last_windows_failure();
+    if (!file.is_open()) refuse_unreadable(path, last_windows_failure());
     return file;
 }
 
-OpenFile OpenFile::for_appending(const std::filesystem::path& path, std::error_code& failure) {
+OpenFile OpenFile::for_appending(const std::filesystem::path& path) {
     OpenFile file = open_file(path, GENERIC_READ | GENERIC_WRITE, kShareAll, OPEN_ALWAYS);
-    if (!file.is_open()) failure = last_windows_failure();
+    if (!file.is_open()) fail_action(path, "opening", last_windows_failure());
     return file;
 }
 
@@ -54,44 +54,39 @@ OpenFile::~OpenFile() {
     if (is_open()) CloseHandle(handle_of(*this));
 }
 
-std::optional<std::uint64_t> OpenFile::regular_size(std::error_code& /*failure*/) const {
+std::optional<std::uint64_t> OpenFile::regular_size() const {
     BY_HANDLE_FILE_INFORMATION information{};
     if (!is_regular(*this, information)) return std::nullopt;
     return std::uint64_t{information.nFileSizeHigh} << 32 | information.nFileSizeLow;
 }
 
-std::size_t OpenFile::read(std::span<std::byte> buffer, std::error_code& failure) const {
+std::size_t OpenFile::read(std::span<std::byte> buffer) const {
     std::size_t done = 0;
     while (done < buffer.size()) {
         DWORD count = 0;
-        if (ReadFile(handle_of(*this), buffer.data() + done, transfer_size(buffer.size() - done), &count, nullptr) ==
-            0) {
-            failure = last_windows_failure();
-            break;
-        }
+        if (ReadFile(handle_of(*this), buffer.data() + done, transfer_size(buffer.size() - done), &count, nullptr) == 0)
+            fail_action(path_, "reading", last_windows_failure());
         if (count == 0) break;
         done += count;
     }
     return done;
 }
 
-void OpenFile::write(std::span<const std::byte> data, std::error_code& failure) const {
+void OpenFile::write(std::span<const std::byte> data) const {
     SetFilePointerEx(handle_of(*this), {}, nullptr, FILE_END);
     while (!data.empty()) {
         DWORD count = 0;
-        if (WriteFile(handle_of(*this), data.data(), transfer_size(data.size()), &count, nullptr) == 0) {
-            failure = last_windows_failure();
-            return;
-        }
+        if (WriteFile(handle_of(*this), data.data(), transfer_size(data.size()), &count, nullptr) == 0)
+            fail_action(path_, "writing", last_windows_failure());
         data = data.subspan(count);
     }
 }
 
-void OpenFile::cut(std::uint64_t size, std::error_code& failure) const {
+void OpenFile::cut(std::uint64_t size) const {
     LARGE_INTEGER end;
     end.QuadPart = static_cast<LONGLONG>(size);
     if (SetFilePointerEx(handle_of(*this), end, nullptr, FILE_BEGIN) == 0 || SetEndOfFile(handle_of(*this)) == 0)
-        failure = last_windows_failure();
+        fail_action(path_, "shortening", last_windows_failure());
 }
 
 bool OpenFile::try_lock() const {
@@ -104,81 +99,68 @@ bool OpenFile::try_lock() const {
     return code != ERROR_LOCK_VIOLATION && code != ERROR_IO_PENDING;
 }
 
+namespace {
+
+std::intptr_t create(const std::filesystem::path& target, std::filesystem::path& temporary) {
+    for (int attempt = 0;; ++attempt) {
+        temporary = temporary_name(target);
+        HANDLE made = CreateFileW(long_path(temporary).c_str(), GENERIC_WRITE | DELETE,
+                                  FILE_SHARE_READ | FILE_SHARE_DELETE, nullptr, CREATE_NEW, 0, nullptr);
+        if (made != INVALID_HANDLE_VALUE) return reinterpret_cast<std::intptr_t>(made);
+        if (GetLastError() != ERROR_FILE_EXISTS || attempt == kMostTemporaryNames)
+            fail_action(target, "creating a temporary file beside it", last_windows_failure());
+    }
+}
+
+/// Does nothing on a file system that takes no marks.
+void mark_for_deletion(const OpenFile& file, bool marked) {
+    FILE_DISPOSITION_INFO disposition{static_cast<BOOLEAN>(marked)};
+    SetFileInformationByHandle(handle_of(file), FileDispositionInfo, &disposition, sizeof disposition);
+}
+
+/// Renames the open file over the target. With `as_posix` that works while others read the target, from Windows 10 on.
+bool rename(const OpenFile& file, const std::filesystem::path& target, bool as_posix) {
+    const std::wstring name = long_path(std::filesystem::absolute(target));
+    std::vector<std::byte> memory(sizeof(FILE_RENAME_INFO) + name.size() * sizeof(wchar_t));
+    auto& information = *reinterpret_cast<FILE_RENAME_INFO*>(memory.data());
+    constexpr DWORD kReplace = 1;         // FILE_RENAME_FLAG_REPLACE_IF_EXISTS
+    constexpr DWORD kPosixSemantics = 2;  // FILE_RENAME_FLAG_POSIX_SEMANTICS
+    constexpr int kFileRenameInfoEx = 22;
+    const DWORD flags = as_posix ? kReplace | kPosixSemantics : kReplace;
+    std::copy_n(reinterpret_cast<const std::byte*>(&flags), sizeof flags, memory.data());
+    information.FileNameLength = static_cast<DWORD>(name.size() * sizeof(wchar_t));
+    std::copy(name.begin(), name.end(), information.FileName);
+    return SetFileInformationByHandle(
+               handle_of(file), as_posix ? static_cast<FILE_INFO_BY_HANDLE_CLASS>(kFileRenameInfoEx) : FileRenameInfo,
+               &information, static_cast<DWORD>(memory.size())) != 0;
+}
+
+}  // namespace
+
 /// The new file is marked for deletion while it is written, so that the system removes it when the program is killed.
 /// It has a name meanwhile, but nobody can open it.
-struct Replacement::State {
-    explicit State(const std::filesystem::path& replaced) : target(replaced), file(create()) {
-        mark_for_deletion(true);
-    }
-    ~State() {
-        // Does nothing where the file was renamed, and is needed where the file system takes no marks.
-        if (!done) mark_for_deletion(true);
-    }
-    State(const State&) = delete;
-    State& operator=(const State&) = delete;
+Replacement::Replacement(const std::filesystem::path& target)
+    : target_(target), file_(target, create(target, temporary_)) {
+    mark_for_deletion(file_, true);
+}
 
-    OpenFile create() const {
-        for (int attempt = 0;; ++attempt) {
-            OpenFile made = open_file(temporary_name(target), GENERIC_WRITE | DELETE,
-                                      FILE_SHARE_READ | FILE_SHARE_DELETE, CREATE_NEW);
-            if (made.is_open()) return made;
-            if (GetLastError() != ERROR_FILE_EXISTS || attempt == kMostTemporaryNames)
-                fail_action(target, "creating a temporary file beside it", last_windows_failure());
-        }
-    }
-
-    void mark_for_deletion(bool marked) const {
-        FILE_DISPOSITION_INFO disposition{static_cast<BOOLEAN>(marked)};
-        SetFileInformationByHandle(handle_of(file), FileDispositionInfo, &disposition, sizeof disposition);
-    }
-
-    /// Renames the open file over the target. With `as_posix` that works while others read the target, from Windows 10
-    /// on.
-    bool rename(bool as_posix) const {
-        const std::wstring name = long_path(std::filesystem::absolute(target));
-        std::vector<std::byte> memory(sizeof(FILE_RENAME_INFO) + name.size() * sizeof(wchar_t));
-        auto& information = *reinterpret_cast<FILE_RENAME_INFO*>(memory.data());
-        constexpr DWORD kReplace = 1;         // FILE_RENAME_FLAG_REPLACE_IF_EXISTS
-        constexpr DWORD kPosixSemantics = 2;  // FILE_RENAME_FLAG_POSIX_SEMANTICS
-        constexpr int kFileRenameInfoEx = 22;
-        const DWORD flags = as_posix ? kReplace | kPosixSemantics : kReplace;
-        std::copy_n(reinterpret_cast<const std::byte*>(&flags), sizeof flags, memory.data());
-        information.FileNameLength = static_cast<DWORD>(name.size() * sizeof(wchar_t));
-        std::copy(name.begin(), name.end(), information.FileName);
-        return SetFileInformationByHandle(
-                   handle_of(file),
-                   as_posix ? static_cast<FILE_INFO_BY_HANDLE_CLASS>(kFileRenameInfoEx) : FileRenameInfo, &information,
-                   static_cast<DWORD>(memory.size())) != 0;
-    }
-
-    const std::filesystem::path& target;
-    OpenFile file;
-    bool done = false;
-};
-
-Replacement::Replacement(const std::filesystem::path& target) : state_(std::make_unique<State>(target)) {}
-
-Replacement::~Replacement() = default;
-
-void Replacement::write(std::span<const std::byte> data) const {
-    std::error_code failure;
-    state_->file.write(data, failure);
-    if (failure) fail_action(state_->target, "writing", failure);
+Replacement::~Replacement() {
+    // Needed where renaming failed.
+    if (!temporary_.empty()) mark_for_deletion(file_, true);
 }
 
 void Replacement::replace_target() {
-    if (FlushFileBuffers(handle_of(state_->file)) == 0) fail_action(state_->target, "writing", last_windows_failure());
-    state_->mark_for_deletion(false);
+    if (FlushFileBuffers(handle_of(file_)) == 0) fail_action(target_, "writing", last_windows_failure());
+    mark_for_deletion(file_, false);
     // Virus scanners and indexers open new files for a moment, and no event tells when they are done.
     constexpr int kMostAttempts = 100;
-    for (int attempt = 0; !state_->done; ++attempt) {
-        state_->done = state_->rename(true) || state_->rename(false);
+    for (int attempt = 0; !rename(file_, target_, true) && !rename(file_, target_, false); ++attempt) {
         const std::error_code failure = last_windows_failure();
-        if (state_->done) return;
         const bool taken = failure.value() == ERROR_ACCESS_DENIED || failure.value() == ERROR_SHARING_VIOLATION;
-        if (!taken || attempt == kMostAttempts) fail_action(state_->target, "renaming", failure);
+        if (!taken || attempt == kMostAttempts) fail_action(target_, "renaming", failure);
         std::this_thread::sleep_for(std::chrono::milliseconds(10));
     }
+    temporary_.clear();
 }
 
 void require_no_device(const std::filesystem::path& path) {

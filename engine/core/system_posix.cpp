@@ -20,7 +20,7 @@ std::optional<std::filesystem::path> named_folder(const char* variable) {
 
 /// The folder that `variable` names, else `below` in the home folder: the XDG Base Directory Specification.
 std::optional<std::filesystem::path> xdg_folder(const char* variable, const char* below) {
-    if (const auto named = named_folder(variable)) return named;
+    if (auto named = named_folder(variable)) return named;
     const auto home = home_folder();
     return home ? std::optional(*home / below) : std::nullopt;
 }

@@ -11,7 +11,7 @@
 
 #include "engine/core/check.h"
 #include "engine/core/log.h"
-#include "engine/core/system.h"
+#include "engine/core/program.h"
 
 namespace rowland::ui {
 
@@ -165,7 +165,7 @@ std::string font_file() {
     const std::filesystem::path system = ROWLAND_UI_FONT;
     std::error_code ignored;
     if (std::filesystem::is_regular_file(system, ignored)) return system.string();
-    return (program_file().parent_path().parent_path() / "fonts" / system.filename()).string();
+    return (program_prefix() / "fonts" / system.filename()).string();
 }
 
 /// Loads the font at `scale`: DejaVu Sans with Greek letters, arrows and mathematical signs; or ImGui's own, with Latin

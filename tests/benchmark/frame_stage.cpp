@@ -6,6 +6,7 @@
 
 #include "editor/trade/stage.h"
 #include "engine/asset/container.h"
+#include "engine/core/program.h"
 #include "engine/lighting/procedural_probe.h"
 #include "engine/post/ocio_config.h"
 #include "engine/scene/mesh_recipe.h"
@@ -86,7 +87,7 @@ constexpr float kFieldOfView = 0.9F;
 constexpr int kSettlingFrames = 2;  ///< maps are filled in the second frame at rest
 
 std::filesystem::path cooked_folder() {
-    return std::filesystem::read_symlink("/proc/self/exe").parent_path().parent_path() / "cooked";
+    return program_prefix() / "cooked";
 }
 
 /// From above; the disc covers half the picture.

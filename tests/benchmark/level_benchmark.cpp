@@ -65,7 +65,7 @@ double resident_mb() {
 }
 
 std::filesystem::path cooked(const std::string& name) {
-    return std::filesystem::read_symlink("/proc/self/exe").parent_path().parent_path() / "cooked" / name;
+    return program_prefix() / "cooked" / name;
 }
 
 /// A grid of discs and spheres, in turn, that fills the picture.

@@ -270,8 +270,7 @@ void compare_at_stops(const WalkOptions& options) {
 
 int run(int argc, char** argv) {
     WalkOptions options;
-    options.scene =
-        std::filesystem::read_symlink("/proc/self/exe").parent_path().parent_path() / "cooked" / "rooms.scene";
+    options.scene = program_prefix() / "cooked" / "rooms.scene";
     CLI::App app{"A walk through the three rooms, under a probe for each box and under one.", "rowland-walk-benchmark"};
     app.footer(
         "Needs the rooms: ./rowland rooms, or the target rowland-rooms.\nexample: rowland-walk-benchmark --frames 50");
