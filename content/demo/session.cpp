@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 #include <algorithm>
+#include <charconv>
+#include <system_error>
 #include <utility>
 
 #include "content/demo/play/body.h"
@@ -12,6 +14,7 @@
 #include "engine/core/text.h"
 #include "engine/scene/transform.h"
 #include "engine/view/picture.h"
+#include "modules/diffraction/runtime/rung_control.h"
 #include "modules/material_types.h"
 
 namespace rowland::demo {
@@ -95,7 +98,8 @@ Session::Session(const Options& options, const post::OcioConfig& config, glm::iv
       probe_paths_(probe_paths(options)),
       views_(config.views(config.default_display())),
       view_(config.default_view(config.default_display())),
-      sheets_(sheets(options, scene_)) {
+      sheets_(sheets(options, scene_)),
+      plays_back_(options.play.has_value()) {
     play_.set_animation([this](const Play& play) { scene_.pose(play); });
     use_probe(probe_paths_[0]);
     set_budget(options.gratings_ms.value_or(0.0));
@@ -134,6 +138,11 @@ void Session::set(const SettingEvent& event) {
         case Setting::GratingsMs:
             set_budget(number());
             break;
+        case Setting::Rung:
+            if (plays_back_)
+                scene_.world().add(grating_numbered(event.object),
+                                   diffraction::RecordedRung{static_cast<std::size_t>(number())});
+            break;
         case Setting::Grain:
             if (post.grain) post.grain->strength = number();
             break;
@@ -157,6 +166,16 @@ void Session::set(const SettingEvent& event) {
             set_look(Side::Right, event.object, text());
             break;
     }
+}
+
+ecs::Entity Session::grating_numbered(const std::string& text) {
+    const std::vector<ecs::Entity> gratings = comparison_.gratings();
+    std::size_t number = 0;
+    const char* const end = text.data() + text.size();
+    const auto [read, failure] = std::from_chars(text.data(), end, number);
+    if (failure != std::errc() || read != end || number >= gratings.size())
+        refuse_input("rung", "of", text, fmt::format("the number of one of {} gratings", gratings.size()));
+    return gratings[number];
 }
 
 /// A shipped probe by its stem, any other by its path.
@@ -246,9 +265,30 @@ void Session::show_probe() {
 void Session::set_budget(double gratings_ms) {
     ecs::World& world = scene_.world();
     if (world.alive(budget_)) world.destroy(budget_);
+    told_rungs_.clear();
+    if (plays_back_)
+        for (const ecs::Entity grating : comparison_.gratings()) world.add(grating, diffraction::RecordedRung{});
     if (gratings_ms <= 0.0) return;
     budget_ = world.create();
     world.add(budget_, diffraction::FrameBudget{gratings_ms});
+}
+
+std::vector<PlayEvent> Session::take_chosen_rungs() {
+    std::vector<PlayEvent> events;
+    const std::vector<ecs::Entity> gratings = comparison_.gratings();
+    told_rungs_.resize(gratings.size());
+    for (std::size_t i = 0; i < gratings.size(); ++i) {
+        const auto* drawn = scene_.world().find<diffraction::DrawnRung>(gratings[i]);
+        if (drawn == nullptr || drawn->wanted == told_rungs_[i].value_or(drawn->ladder->size() - 1)) continue;
+        told_rungs_[i] = drawn->wanted;
+        events.emplace_back(SettingEvent{Setting::Rung, static_cast<double>(drawn->wanted), std::to_string(i)});
+    }
+    return events;
+}
+
+void Session::end_playback() {
+    plays_back_ = false;
+    for (const ecs::Entity grating : comparison_.gratings()) scene_.world().remove<diffraction::RecordedRung>(grating);
 }
 
 void Session::use_view(const std::string& view) {

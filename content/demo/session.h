@@ -64,6 +64,10 @@ class Session {
     /// Carries out the play's commands, and returns the actions that a session does not know. Bad input is logged and
     /// changes nothing.
     std::vector<Action> carry_out();
+    /// What the budget has chosen since the last call, as events for a recording.
+    std::vector<PlayEvent> take_chosen_rungs();
+    /// From now on budgets choose by what is measured, not as the recording tells.
+    void end_playback();
     /// Reloads files that have changed.
     void follow_files();
     /// Draws the world as the play has it, `seconds` after the last frame, then takes the screenshots asked for.
@@ -93,6 +97,7 @@ class Session {
     void look_through(std::size_t sheet);
     void set_look(Side side, const std::string& object, const std::string& look);
     void show_probe();
+    ecs::Entity grating_numbered(const std::string& text);
     std::filesystem::path probe_named(const std::string& name) const;
     void reload_shaders();
     void refresh_scene();
@@ -121,6 +126,9 @@ class Session {
     std::size_t sheet_ = 0;  ///< one more than the index of the one looked through; 0: none
     std::vector<Action> screenshots_;
     ecs::Entity budget_;  ///< has the FrameBudget; not alive without a budget
+    bool plays_back_;     ///< a recording tells the rungs
+    std::vector<std::optional<std::size_t>>
+        told_rungs_;  ///< by take_chosen_rungs(), of each grating since set_budget()
 };
 
 /// What the options show, by the name that a recording stores.

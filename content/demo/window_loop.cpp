@@ -83,6 +83,10 @@ class Program {
         if (recording_)
             return play_clock_.replay(session_.play(), frame.elapsed, *recording_) &&
                    std::ranges::none_of(events, is_escape);
+        if (recorder_) {
+            const std::vector<PlayEvent> rungs = session_.take_chosen_rungs();
+            events.insert(events.end(), rungs.begin(), rungs.end());
+        }
         play_clock_.live(session_.play(), frame.elapsed, std::move(events), recorder_ ? &*recorder_ : nullptr);
         return true;
     }
@@ -91,6 +95,7 @@ class Program {
     void hand_over() {
         log_state(session_.play());
         recording_.reset();
+        session_.end_playback();
         if (closed_in_recording_) loop_.window().request_close();
         // Releases the keys that the recording left down.
         play_clock_.live(session_.play(), {},

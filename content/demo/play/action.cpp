@@ -142,13 +142,14 @@ std::string help_text() {
 
 namespace {
 
-constexpr std::array<SettingKind, 12> kKinds{{
+constexpr std::array<SettingKind, 13> kKinds{{
     {Setting::Exposure, "exposure", {{-12.0, 12.0}}},
     {Setting::Bloom, "bloom", {{0.0, 1.0}}},
     {Setting::Vignette, "vignette", {{0.0, 1.0}}},
     {Setting::FNumber, "f-number", {{0.5, 64.0}}},
     {Setting::Grain, "grain", {{0.0, 0.5}}},
     {Setting::GratingsMs, "gratings_ms", {{0.0, 100.0}}},
+    {Setting::Rung, "rung", {{0.0, 15.0}}},
     {Setting::Wipe, "wipe", {{0.0, 1.0}}},
     {Setting::WipeLine, "wipe line", {{0.0, 1.0}}},
     {Setting::Probe, "probe", std::nullopt},

@@ -71,6 +71,7 @@ enum class Setting {
     FNumber,
     Grain,
     GratingsMs,
+    Rung,  ///< chosen within GratingsMs, not by the user: the place of a grating's rung, from 0, the cheapest
     Wipe,
     WipeLine,
     Probe,
@@ -97,7 +98,7 @@ std::optional<Setting> setting_named(std::string_view name);
 struct SettingEvent {
     Setting setting;
     std::variant<double, std::string> value;  ///< a number within the range, or a text
-    std::string object = {};                  ///< whose look it is; empty: of all
+    std::string object = {};                  ///< whose look it is, empty: of all; whose rung it is, by number
 
     friend bool operator==(const SettingEvent&, const SettingEvent&) = default;
 };

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <span>
 #include <vector>
@@ -25,6 +26,12 @@ struct FrameBudgetReport {
     int objects = 0;           ///< seen
     int at_best = 0;           ///< of these, drawn by their best rung
     int fading = 0;            ///< from one rung to another
+};
+
+/// Component of an object, beside its DiffractionSurface: the rung that draws it under a FrameBudget, in place of one
+/// that is chosen by measured times. A recorded play is played back by it.
+struct RecordedRung {
+    std::size_t rung = std::numeric_limits<std::size_t>::max();  ///< from 0, the cheapest; the best one if it has fewer
 };
 
 /// A way to draw an object.

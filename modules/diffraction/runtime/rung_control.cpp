@@ -105,8 +105,13 @@ void RungControl::choose(ecs::World& world, std::span<const render::LitEntity> s
                 drawn = &world.add(entity, std::move(made));
             }
             drawn->may_fade = false;
+            const RecordedRung* recorded = world.find<RecordedRung>(entity);
+            drawn->recorded = recorded != nullptr;
+            if (recorded != nullptr && drawn->fade_frame == 0)
+                drawn->wanted = std::min(recorded->rung, drawn->ladder->size() - 1);
         });
     std::vector<Candidate> candidates;
+    std::vector<Candidate> recorded;
     double fixed_ms = 0.0;
     for (const render::LitEntity& lit : seen) {
         DrawnRung* drawn = world.find<DrawnRung>(lit.entity);
@@ -114,10 +119,8 @@ void RungControl::choose(ecs::World& world, std::span<const render::LitEntity> s
         drawn->may_fade = !lit.light.has_second();
         if (drawn->samples == 0.0) continue;
         const Candidate candidate{drawn, drawn->samples * (lit.light.has_second() ? 2.0 : 1.0)};
-        if (drawn->fade_frame > 0)
-            fixed_ms += options_of(candidate)[drawn->wanted].ms;
-        else
-            candidates.push_back(candidate);
+        if (drawn->fade_frame > 0 || drawn->recorded) fixed_ms += options_of(candidate)[drawn->wanted].ms;
+        if (drawn->fade_frame == 0) (drawn->recorded ? recorded : candidates).push_back(candidate);
     }
 
     constexpr double kAim = 0.98;  // of the time, so that noise rarely exceeds it
@@ -144,6 +147,7 @@ void RungControl::choose(ecs::World& world, std::span<const render::LitEntity> s
         for (std::size_t i = 0; i < best.size(); ++i) candidates[i].drawn->wanted = best[i];
         ms = best_ms;
     }
+    candidates.insert(candidates.end(), recorded.begin(), recorded.end());
     write_report(candidates, ms);
 }
 
@@ -168,7 +172,7 @@ void RungControl::step_fade(DrawnRung& drawn, SurfaceState& state) const {
     if (!drawn.changes()) return;
     const bool ready = state.fades && state.second && state.second->material == drawn.next_material() &&
                        state.second->light_version && !state.second->without_map;
-    if (drawn.fade_frame > 0 || ready) drawn.fade_frame += fade_step_;
+    if (drawn.fade_frame > 0 || ready) drawn.fade_frame += drawn.recorded ? 1 : fade_step_;
     if (drawn.may_fade && drawn.fade_frame <= kFadeFrames) return;
     if (ready) {
         const auto second = std::move(state.second);

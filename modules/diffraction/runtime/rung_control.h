@@ -34,6 +34,7 @@ struct DrawnRung {
     std::size_t wanted = 0;
     int fade_frame = 0;                           ///< of kFadeFrames; 0: it does not fade
     double samples = 0.0;                         ///< that the last draw covered
+    bool recorded = false;                        ///< it has a RecordedRung
     bool may_fade = false;                        ///< it is seen, and under one probe: another has the second slot
     std::optional<std::uint64_t> announced = {};  ///< frame in which later_programs() named the rungs' programs
 

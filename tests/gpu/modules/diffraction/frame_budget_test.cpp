@@ -192,6 +192,22 @@ TEST_F(FrameBudgets, WhatIsNotSeenChangesAtOnce) {
     for (const glm::vec4& pixel : again) ASSERT_TRUE(std::isfinite(pixel.x));
 }
 
+TEST_F(FrameBudgets, ARecordedRungIsDrawnInPlaceOfACheaperOne) {
+    world_.add(discs_[0], RecordedRung{1});
+    world_.add(discs_[1], RecordedRung{});
+    set_budget(1e-9);
+    settle();
+    EXPECT_EQ(rung(0), 1U);
+    EXPECT_EQ(rung(1), 2U);
+    EXPECT_EQ(report().objects, 2);
+    EXPECT_EQ(report().at_best, 1);
+    EXPECT_NEAR(report().error, (0.2 + 0.01) / 2.0 / 0.05, 0.02) << "the discs cover about as many pixels";
+    for (const ecs::Entity disc : discs_) world_.remove<RecordedRung>(disc);
+    settle();
+    EXPECT_EQ(rung(0), 0U);
+    EXPECT_EQ(rung(1), 0U);
+}
+
 /// Counts the pixels of a disc by the picture, whose background is black.
 TEST_F(FrameBudgets, TheSamplesOfEachDrawAreCounted) {
     set_budget(1e9);

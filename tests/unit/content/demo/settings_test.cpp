@@ -8,6 +8,7 @@
 #include "engine/cook/cook_source.h"
 #include "engine/core/file.h"
 #include "engine/platform/gl_context.h"
+#include "modules/diffraction/runtime/rung_control.h"
 #include "tests/support/expect.h"
 #include "tests/support/files.h"
 
@@ -37,6 +38,52 @@ class DemoSettings : public ::testing::Test {
     post::OcioConfig config_ = post::OcioConfig::choose(std::nullopt);
     std::optional<Session> session_;
 };
+
+/// Under a budget, of which the test's machine cannot choose another rung than the cheapest or the best.
+class DemoBudget : public DemoSettings {
+ protected:
+    void open_with(double gratings_ms, bool plays_back) {
+        options_.gratings_ms = gratings_ms;
+        if (plays_back) options_.play = "recording.jsonl";
+        open();
+    }
+    void draw() {
+        session_->draw(1.0F / 30.0F);
+        glFinish();  // what was measured is known in the next frame
+    }
+    std::vector<std::size_t> rungs() {
+        std::vector<std::size_t> rungs;
+        for (const ecs::Entity grating : session_->comparison().gratings())
+            rungs.push_back(session_->play().world().get<diffraction::DrawnRung>(grating).wanted);
+        return rungs;
+    }
+};
+
+TEST_F(DemoBudget, APlaybackDrawsTheRungsThatWereChosenInTheRecordedPlay) {
+    constexpr int kMostFrames = 60;  // until draws were measured
+    open_with(1e-6, false);
+    std::vector<PlayEvent> chosen;
+    for (int frame = 0; frame < kMostFrames && chosen.empty(); ++frame) {
+        draw();
+        chosen = session_->take_chosen_rungs();
+    }
+    const std::vector<std::size_t> cheapest = rungs();
+    ASSERT_FALSE(chosen.empty());
+
+    open_with(1e6, true);
+    draw();
+    const std::vector<std::size_t> best = rungs();
+    EXPECT_NE(best, cheapest);
+    session_->play().step(chosen);
+    EXPECT_TRUE(session_->carry_out().empty());
+    draw();
+    EXPECT_EQ(rungs(), cheapest);
+    set({Setting::Rung, 1.0, "99"});
+    EXPECT_THAT(session_->messages().back().text, testing::HasSubstr("gratings"));
+    session_->end_playback();
+    for (int frame = 0; frame < kMostFrames && rungs() != best; ++frame) draw();
+    EXPECT_EQ(rungs(), best);
+}
 
 /// What the demo ships is cooked by the build.
 TEST_F(DemoSettings, AStartBakesNothing) {

@@ -45,7 +45,8 @@ std::vector<PlayEvent> one_of_each() {
             ActionEvent{Action::AutoExposure},
             SettingEvent{Setting::Exposure, -1.0 / 3.0},
             SettingEvent{Setting::Probe, "night \"1\""},
-            SettingEvent{Setting::LeftLook, "arc, fine", "disc"}};
+            SettingEvent{Setting::LeftLook, "arc, fine", "disc"},
+            SettingEvent{Setting::Rung, 2.0, "17"}};
 }
 
 TEST_F(DemoRecording, EveryKindOfEventComesBackExactly) {
@@ -74,7 +75,7 @@ TEST_F(DemoRecording, EveryKindOfEventComesBackExactly) {
     EXPECT_TRUE(std::get<platform::GamepadEvent>(input(6)).buttons[4]);
     EXPECT_EQ(std::get<ResizeEvent>(events[7]).size, glm::ivec2(800, 600));
     EXPECT_EQ(std::get<ActionEvent>(events[8]).action, Action::AutoExposure);
-    for (const std::size_t i : {9U, 10U, 11U})
+    for (const std::size_t i : {9U, 10U, 11U, 12U})
         EXPECT_EQ(std::get<SettingEvent>(events[i]), std::get<SettingEvent>(one_of_each()[i])) << i;
     EXPECT_FALSE(std::get<platform::KeyEvent>(std::get<platform::InputEvent>(recording.events_at(7)[0])).down);
 }
