@@ -9,6 +9,8 @@
 #include "engine/core/error.h"
 #include "engine/core/file.h"
 #include "engine/core/text.h"
+#include "engine/scene/gltf_check.h"
+#include "engine/scene/gltf_source.h"
 #include "modules/diffraction/asset/gltf_extension.h"
 #include "modules/diffraction/asset/material.h"
 
@@ -129,6 +131,7 @@ Document Document::open_scene(scene::EditableGltf file, std::span<const scene::P
     const auto first = std::ranges::find_if(document.slots_, [](const Slot& slot) { return !slot.json.is_null(); });
     if (first != document.slots_.end()) document.chosen_ = static_cast<std::size_t>(first - document.slots_.begin());
     document.file_ = std::move(file);
+    document.boxes_ = document.file_->nodes_with(scene::kProbeExtension);
     document.mark_saved();
     return document;
 }
@@ -171,27 +174,55 @@ void Document::set_extension(const Json& object, const std::string& name) {
 void Document::edit(const Json& edited, const Field* field) {
     if (edited == json()) return;
     steps_.resize(at_);
-    if (field != nullptr && field == editing_ && at_ > 0) {
-        steps_.back().after = edited;
-    } else {
-        steps_.push_back({chosen_, json(), edited});
-        if (steps_.size() > kMostSteps) steps_.erase(steps_.begin());
-        at_ = steps_.size();
-    }
+    if (field != nullptr && field == editing_ && at_ > 0)
+        std::get<MaterialEdit>(steps_.back()).after = edited;
+    else
+        add_step(MaterialEdit{chosen_, json(), edited});
     set(chosen_, edited);
     editing_ = field;
+}
+
+void Document::set_boxes(std::vector<scene::ExtendedNode> boxes) {
+    if (boxes == boxes_) return;
+    for (const scene::ExtendedNode& box : boxes)
+        scene::relative_path_of_uri(name_, box.extension.at("probe"), "the light probe of " + box.name);
+    steps_.resize(at_);
+    if (editing_ == &boxes_ && at_ > 0)
+        std::get<BoxEdit>(steps_.back()).after = boxes;
+    else
+        add_step(BoxEdit{boxes_, boxes});
+    take_boxes(boxes);
+    editing_ = &boxes_;
+}
+
+void Document::add_step(Step step) {
+    steps_.push_back(std::move(step));
+    if (steps_.size() > kMostSteps) steps_.erase(steps_.begin());
+    at_ = steps_.size();
+}
+
+void Document::take_boxes(const std::vector<scene::ExtendedNode>& boxes) {
+    boxes_ = boxes;
+    editing_ = nullptr;
+    ++revision_;
 }
 
 void Document::undo() {
     if (!can_undo()) return;
     const Step& step = steps_[--at_];
-    set(step.material, step.before);
+    if (const auto* edit = std::get_if<MaterialEdit>(&step))
+        set(edit->material, edit->before);
+    else
+        take_boxes(std::get<BoxEdit>(step).before);
 }
 
 void Document::redo() {
     if (!can_redo()) return;
     const Step& step = steps_[at_++];
-    set(step.material, step.after);
+    if (const auto* edit = std::get_if<MaterialEdit>(&step))
+        set(edit->material, edit->after);
+    else
+        take_boxes(std::get<BoxEdit>(step).after);
 }
 
 void Document::set(std::size_t material, const Json& json) {
@@ -217,7 +248,8 @@ void Document::reparse(Slot& slot) const {
 }
 
 bool Document::dirty() const {
-    return path_.empty() || std::ranges::any_of(slots_, [](const Slot& slot) { return slot.json != slot.in_file; });
+    return path_.empty() || boxes_ != boxes_in_file_ ||
+           std::ranges::any_of(slots_, [](const Slot& slot) { return slot.json != slot.in_file; });
 }
 
 void Document::require_accepted() const {
@@ -232,6 +264,7 @@ void Document::mark_saved() {
         slot.in_file = slot.json;
         slot.saved = slot.json.is_null() ? nullptr : slot.accepted;
     }
+    boxes_in_file_ = boxes_;
     editing_ = nullptr;
 }
 
@@ -251,6 +284,7 @@ scene::EditableGltf Document::edited_file(const std::filesystem::path& folder) c
         for (const std::string name : kExtensions)
             file.set_material_extension(material, name, name == extension_of(extension) ? extension : Json());
     }
+    if (boxes_ != boxes_in_file_) file.set_nodes_with(scene::kProbeExtension, boxes_);
     return file;
 }
 
@@ -262,6 +296,7 @@ void Document::write(const std::filesystem::path& path, bool over_changes) {
         scene::EditableGltf file = edited_file(folder);
         file.save(path, over_changes ? IfChanged::Overwrite : IfChanged::Refuse);
         file_ = std::move(file);
+        boxes_ = file_->nodes_with(scene::kProbeExtension);  // new ones have an index now
     } else {
         write_file_atomic(path, format_json(moved(json(), folder_, folder)));
     }
@@ -285,7 +320,7 @@ void Document::save_as(const std::filesystem::path& path) {
         const Json there = moved(slots_[i].json, from, folder_);
         if (there == slots_[i].json) continue;
         steps_.resize(at_);
-        steps_.push_back({i, slots_[i].json, there});
+        steps_.push_back(MaterialEdit{i, slots_[i].json, there});
         at_ = steps_.size();
         slots_[i].json = there;
         reparse(slots_[i]);

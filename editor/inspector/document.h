@@ -130,9 +130,15 @@ class Document {
     void set_extension(const Json& object, const std::string& name);
     void finish_edit() { editing_ = nullptr; }
 
+    /// The boxes of a scene with a light probe of their own: nodes with ROWLAND_light_probe.
+    const std::vector<scene::ExtendedNode>& boxes() const { return boxes_; }
+    /// Replaces them; all calls between two of finish_edit() are one step of undo. Throws Error (input) if a probe is
+    /// not named as a file in the scene's folder, or below it.
+    void set_boxes(std::vector<scene::ExtendedNode> boxes);
+
     bool can_undo() const { return at_ > 0; }
     bool can_redo() const { return at_ < steps_.size(); }
-    /// Both choose the changed material.
+    /// Both choose the changed material, if one changes.
     void undo();
     void redo();
 
@@ -179,15 +185,22 @@ class Document {
         std::shared_ptr<const MaterialSource> saved = {};
         std::optional<Refusal> refusal = {};
     };
-    struct Step {
+    struct MaterialEdit {
         std::size_t material = 0;
         Json before;
         Json after;
     };
+    struct BoxEdit {
+        std::vector<scene::ExtendedNode> before;
+        std::vector<scene::ExtendedNode> after;
+    };
+    using Step = std::variant<MaterialEdit, BoxEdit>;
 
     Document(std::string name, std::filesystem::path folder) : name_(std::move(name)), folder_(std::move(folder)) {}
     void edit(const Json& edited, const Field* field);
     void set(std::size_t material, const Json& json);
+    void add_step(Step step);
+    void take_boxes(const std::vector<scene::ExtendedNode>& boxes);
     void reparse(Slot& slot) const;
     void require_accepted() const;
     void mark_saved();
@@ -198,10 +211,12 @@ class Document {
 
     std::vector<Slot> slots_;
     std::size_t chosen_ = 0;
+    std::vector<scene::ExtendedNode> boxes_;
+    std::vector<scene::ExtendedNode> boxes_in_file_;
     std::vector<Step> steps_;
     std::size_t at_ = 0;  ///< steps that are done; later ones are undone
     std::size_t revision_ = 0;
-    const Field* editing_ = nullptr;  ///< further edits of this field change the last step
+    const void* editing_ = nullptr;  ///< further edits of this field, or of boxes_, change the last step
     std::filesystem::path path_;
     std::string name_;
     std::filesystem::path folder_;

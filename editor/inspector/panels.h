@@ -127,6 +127,8 @@ class PreviewPanel {
     void draw(FoilStudio& studio, LightChoice& light, View& view, const platform::InputState& input,
               float pixels_per_unit, float seconds, ControlMap& controls);
     scene::Camera camera() const { return camera_.camera(); }
+    /// Corner and size of the picture, in screen coordinates; nullopt: the tile was too small for one.
+    const std::optional<std::pair<ImVec2, ImVec2>>& picture() const { return picture_; }
 
     /// Moves the camera so that the meshes with the chosen material fill the picture.
     void frame(View& view);
@@ -138,7 +140,7 @@ class PreviewPanel {
                     ControlMap& controls);
     void draw_light_tools(LightChoice& light, View& view, ControlMap& controls);
     /// The picture's rectangle, an invisible button; nullopt: it is too small.
-    std::optional<std::pair<ImVec2, ImVec2>> begin_picture(ControlMap& controls);
+    const std::optional<std::pair<ImVec2, ImVec2>>& begin_picture(ControlMap& controls);
     void follow(const void* shown, const scene::Camera& camera);
     void draw_picture(const View& view, const ImVec2& corner, const ImVec2& size) const;
     void draw_saved(const View& view, const ImVec2& corner, const ImVec2& end) const;
@@ -151,9 +153,10 @@ class PreviewPanel {
     enum class Drag { None, Line, Lamp, Grooves, Orbit };
 
     scene::OrbitCamera camera_;
-    const void* shown_ = nullptr;  ///< the scene or the foil card in the last frame
-    bool has_saved_ = false;       ///< in this frame: there is a saved version
-    float line_ = 0.5F;            ///< position of the dividing line, as a fraction of the width
+    std::optional<std::pair<ImVec2, ImVec2>> picture_;  ///< picture()
+    const void* shown_ = nullptr;                       ///< the scene or the foil card in the last frame
+    bool has_saved_ = false;                            ///< in this frame: there is a saved version
+    float line_ = 0.5F;                                 ///< position of the dividing line, as a fraction of the width
     Drag drag_ = Drag::None;
     bool lamp_behind_ = false;   ///< at the start of the drag
     float moving_scale_ = 1.0F;  ///< pixels of a card that moves over those of one at rest, along a side

@@ -47,13 +47,16 @@ scene::Mesh bent(scene::Mesh mesh, double width, double angle) {
     return mesh;
 }
 
-scene::Transform fit_of(const scene::ImportedScene& imported) {
+scene::Bounds bounds_of(const scene::ImportedScene& imported) {
     std::vector<scene::Bounds> of_meshes;
     for (const scene::Mesh& mesh : imported.meshes) of_meshes.push_back(scene::bounds(mesh));
     std::vector<scene::Bounds> boxes;
     for (const scene::ImportedInstance& instance : imported.instances)
         boxes.push_back(render::transformed(of_meshes[instance.mesh], instance.transform));
-    const scene::Bounds box = render::united(boxes).value_or(scene::Bounds{});
+    return render::united(boxes).value_or(scene::Bounds{});
+}
+
+scene::Transform fit_of(const scene::Bounds& box) {
     const float scale = fitting_scale(box);
     return {.translation = -scale * 0.5F * (box.minimum + box.maximum),
             .rotation = {1.0F, 0.0F, 0.0F, 0.0F},
@@ -142,10 +145,12 @@ std::shared_ptr<const SceneObject> scene_object(const std::filesystem::path& fil
                        .meshes = {},
                        .materials = {},
                        .without_material = {},
+                       .bounds = {},
                        .fit = {}};
     object.without_material = add_default_materials(object.imported);
     scene::pose_skins_at_rest(object.imported);
-    object.fit = fit_of(object.imported);
+    object.bounds = bounds_of(object.imported);
+    object.fit = fit_of(object.bounds);
     object.materials = materials_of(object.imported);
     for (scene::Mesh& mesh : std::exchange(object.imported.meshes, {}))
         object.meshes.push_back(std::make_shared<const scene::Mesh>(std::move(mesh)));

@@ -60,6 +60,7 @@ struct SceneObject {
     std::vector<std::shared_ptr<const scene::Mesh>> meshes;
     std::vector<SceneMaterial> materials;  ///< the file's, then one for each primitive in `without_material`
     std::vector<scene::PrimitiveId> without_material;  ///< primitives without a material
+    scene::Bounds bounds;                              ///< of all instances, in metres
     scene::Transform fit;  ///< scales it to the size of the other shapes, and moves it to the origin
 };
 

@@ -221,13 +221,15 @@ void PreviewPanel::draw_light_tools(LightChoice& light, View& view, ControlMap& 
     controls.mark("lamp");
 }
 
-std::optional<std::pair<ImVec2, ImVec2>> PreviewPanel::begin_picture(ControlMap& controls) {
+const std::optional<std::pair<ImVec2, ImVec2>>& PreviewPanel::begin_picture(ControlMap& controls) {
     const ImVec2 corner = ImGui::GetCursorScreenPos();
     const ImVec2 size = ImGui::GetContentRegionAvail();
-    if (size.x < 8.0F || size.y < 8.0F) return std::nullopt;
+    picture_.reset();
+    if (size.x < 8.0F || size.y < 8.0F) return picture_;
     ImGui::InvisibleButton("picture", size);
     controls.mark("picture");
-    return std::pair(corner, size);
+    picture_.emplace(corner, size);
+    return picture_;
 }
 
 /// Another object is seen from `camera`.
@@ -240,7 +242,7 @@ void PreviewPanel::draw(OpenDocument& opened, LightChoice& light, View& view, co
     has_saved_ = opened.surface(true) != nullptr;
     follow(opened.scene(), opening_camera());
     draw_tools(opened.scene() != nullptr, opened.document().has_grating(), has_saved_, light, view, controls);
-    const auto rectangle = begin_picture(controls);
+    const auto& rectangle = begin_picture(controls);
     if (!rectangle) return;
     const auto [corner, size] = *rectangle;
     use_mouse(&opened.document(), view, input, corner, size);
@@ -272,7 +274,7 @@ void PreviewPanel::draw(FoilStudio& studio, LightChoice& light, View& view, cons
     }
     controls.mark("turn over");
     draw_lamp_sliders(view.stage, controls);
-    const auto rectangle = begin_picture(controls);
+    const auto& rectangle = begin_picture(controls);
     if (!rectangle) return;
     const auto [corner, size] = *rectangle;
     use_mouse(nullptr, view, input, corner, size);

@@ -92,7 +92,7 @@ void Session::open_in_demo() {
 }
 
 std::size_t Session::boxes() const {
-    return opened.scene() != nullptr ? opened.scene()->imported.probes.size() : 0;
+    return opened.document().boxes().size();
 }
 
 void Session::capture_probes() {

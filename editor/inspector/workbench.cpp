@@ -348,6 +348,8 @@ void Workbench::draw_document_tiles(const platform::InputState& input, const Wor
 
     if (begin_tile("Material", {0.0F, top}, {left, height})) {
         scene_.draw(session_.opened, session_.view, controls_);
+        if (const SceneObject* scene = session_.opened.scene())
+            boxes_.draw(session_.opened.document(), *scene, controls_);
         if (session_.opened.document().accepted()) material_.draw(session_.opened.document(), controls_);
     }
     ImGui::End();
@@ -369,9 +371,15 @@ void Workbench::draw_document_tiles(const platform::InputState& input, const Wor
             [&] { price_.draw(session_.measurement, session_.opened, session_.view, frame.frame_ms, controls_); });
     ImGui::End();
     if (begin_tile("Preview", {left + gap, top}, {middle, height - below - gap},
-                   ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse))
+                   ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse)) {
         preview_.draw(session_.opened, session_.light, session_.view, input, frame.pixels_per_unit, frame.seconds,
                       controls_);
+        const SceneObject* scene = session_.opened.scene();
+        if (const auto& picture = preview_.picture();
+            picture && scene != nullptr && session_.view.shape() == PreviewShape::Scene && session_.view.ready())
+            boxes_.draw_edges(session_.opened.document(), *scene, session_.view.preview(), picture->first,
+                              picture->second);
+    }
     ImGui::End();
     splitter("left splitter", {left, top}, {gap, height}, layout_.material_width, left, 1.0F);
     splitter("right splitter", {frame.size.x - right - gap, top}, {gap, height}, layout_.physics_width, right, -1.0F);

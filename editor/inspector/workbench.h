@@ -12,6 +12,7 @@
 #include "editor/inspector/dialogs.h"
 #include "editor/inspector/foil_panel.h"
 #include "editor/inspector/layout.h"
+#include "editor/inspector/light_boxes.h"
 #include "editor/inspector/panels.h"
 #include "editor/inspector/session.h"
 #include "engine/app/window_loop.h"
@@ -104,6 +105,7 @@ class Workbench {
     FoilPanel foil_;
     MaterialPanel material_;
     ScenePanel scene_;
+    LightBoxPanel boxes_;
     PhysicsPanel physics_;
     PricePanel price_;
     PreviewPanel preview_;

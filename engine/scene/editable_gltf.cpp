@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <string_view>
 #include <utility>
 
@@ -12,6 +13,7 @@
 #include "engine/core/json_reader.h"
 #include "engine/image/byte_image.h"
 #include "engine/scene/gltf_check.h"
+#include "engine/scene/transform.h"
 
 namespace rowland::scene {
 
@@ -19,6 +21,9 @@ namespace {
 
 using OrderedJson = nlohmann::ordered_json;
 namespace fs = std::filesystem;
+
+constexpr std::array<std::pair<const char*, std::size_t>, 4> kTransformParts = {
+    {{"translation", 3}, {"rotation", 4}, {"scale", 3}, {"matrix", 16}}};
 
 /// The file as an outline; also checks the types of all that EditableGltf edits. Throws Error (input).
 GltfOutline read_outline(const nlohmann::json& gltf, const std::string& file) {
@@ -38,6 +43,19 @@ GltfOutline read_outline(const nlohmann::json& gltf, const std::string& file) {
                 material = static_cast<std::size_t>(primitive.integer("material", 0, last_material));
         }
     }
+    for (JsonReader& node : root.objects_if_there("nodes")) {
+        node.text_or("name", "");
+        node.object_if_there("extensions");
+        for (const auto& [key, size] : kTransformParts)
+            if (node.has(key)) node.numbers(key, size, {});
+    }
+    std::int64_t last_scene = -1;
+    for (JsonReader& scene : root.objects_if_there("scenes")) {
+        ++last_scene;
+        if (scene.has("nodes") && !scene.raw("nodes").is_array())
+            scene.fail("nodes", scene.raw("nodes").type_name(), "an array of indices");
+    }
+    root.integer_or("scene", 0, 0, std::max<std::int64_t>(last_scene, 0));
     for (const char* key : {"extensionsUsed", "extensionsRequired"}) {
         if (!root.has(key)) continue;
         const nlohmann::json& names = root.raw(key);
@@ -51,6 +69,38 @@ GltfOutline read_outline(const nlohmann::json& gltf, const std::string& file) {
                 object.integer_or(number, 0, 0, std::int64_t{1} << 32);
         }
     return outline;
+}
+
+/// The numbers of an array member as a vector; `fallback` if it is missing.
+template <typename Vector>
+Vector vector_or(const OrderedJson& object, const char* key, Vector fallback) {
+    if (!object.contains(key)) return fallback;
+    for (int i = 0; i < Vector::length(); ++i) fallback[i] = object[key][static_cast<std::size_t>(i)].get<double>();
+    return fallback;
+}
+
+OrderedJson array_of(const auto& vector) {
+    OrderedJson array = OrderedJson::array();
+    for (int i = 0; i < vector.length(); ++i) array.push_back(vector[i]);
+    return array;
+}
+
+ExtendedNode extended_node(const OrderedJson& json, std::size_t index, const std::string& extension) {
+    ExtendedNode node{.index = index, .name = json.value("name", ""), .extension = json["extensions"][extension]};
+    if (json.contains("matrix")) {
+        glm::dmat4 matrix;
+        for (int i = 0; i < 16; ++i) matrix[i / 4][i % 4] = json["matrix"][static_cast<std::size_t>(i)].get<double>();
+        const Transform parts = decompose(matrix).transform;
+        node.translation = glm::dvec3(matrix[3]);
+        node.rotation = glm::dquat(parts.rotation);
+        node.scale = parts.scale;
+    } else {
+        node.translation = vector_or(json, "translation", node.translation);
+        const glm::dvec4 rotation = vector_or(json, "rotation", glm::dvec4(0.0, 0.0, 0.0, 1.0));
+        node.rotation = {rotation.w, rotation.x, rotation.y, rotation.z};
+        node.scale = vector_or(json, "scale", node.scale);
+    }
+    return node;
 }
 
 /// Adds the names of the extensions in a JSON value: the keys of all "extensions" below it, but for those in "extras".
@@ -146,6 +196,51 @@ void EditableGltf::set_material_extension(std::size_t material, const std::strin
         if (owner["extensions"].empty()) owner.erase("extensions");
     }
     list_extensions(before, names_in(value));
+}
+
+std::vector<ExtendedNode> EditableGltf::nodes_with(const std::string& extension) const {
+    std::vector<ExtendedNode> found;
+    const OrderedJson& nodes = array("nodes");
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+        if (nodes[i].contains("extensions") && nodes[i]["extensions"].contains(extension))
+            found.push_back(extended_node(nodes[i], i, extension));
+    return found;
+}
+
+void EditableGltf::set_nodes_with(const std::string& extension, std::span<const ExtendedNode> nodes) {
+    const std::vector<ExtendedNode> before = nodes_with(extension);
+    OrderedJson& root = edit();
+    for (const ExtendedNode& old : before) {
+        if (std::ranges::find(nodes, old.index, &ExtendedNode::index) != nodes.end()) continue;
+        OrderedJson& node = root["nodes"][*old.index];
+        node["extensions"].erase(extension);
+        if (node["extensions"].empty()) node.erase("extensions");
+    }
+    for (const ExtendedNode& node : nodes) {
+        const auto old = std::ranges::find(before, node.index, &ExtendedNode::index);
+        if (!node.index || old == before.end()) {
+            add_node(extension, node);
+            continue;
+        }
+        OrderedJson& owner = root["nodes"][*node.index];
+        assign_members(owner["extensions"][extension], node.extension);
+        if (node.translation == old->translation && node.rotation == old->rotation) continue;
+        if (owner.erase("matrix") > 0) owner["scale"] = array_of(node.scale);
+        owner["translation"] = array_of(node.translation);
+        owner["rotation"] = {node.rotation.x, node.rotation.y, node.rotation.z, node.rotation.w};
+    }
+    const auto names = [&](bool any) { return any ? std::set<std::string>{extension} : std::set<std::string>(); };
+    list_extensions(names(!before.empty()), names(!nodes.empty()));
+}
+
+void EditableGltf::add_node(const std::string& extension, const ExtendedNode& node) {
+    OrderedJson& root = edit();
+    if (root.contains("scenes") && !root["scenes"].empty())
+        root["scenes"][root.value("scene", std::size_t{0})]["nodes"].push_back(array("nodes").size());
+    root["nodes"].push_back({{"name", node.name},
+                             {"translation", array_of(node.translation)},
+                             {"rotation", {node.rotation.x, node.rotation.y, node.rotation.z, node.rotation.w}},
+                             {"extensions", {{extension, node.extension}}}});
 }
 
 /// Updates "extensionsUsed" and "extensionsRequired".

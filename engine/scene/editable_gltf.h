@@ -2,6 +2,8 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <glm/gtc/quaternion.hpp>
+#include <glm/vec3.hpp>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -30,13 +32,25 @@ struct GltfOutline {
     std::size_t uses(std::size_t material) const;
 };
 
-/// A .gltf or .glb whose materials are edited. Everything that an edit does not name is kept: the order of members,
-/// extras, unknown extensions and the other chunks of a GLB. For this the document is held as the file's JSON, since
-/// tinygltf's writer would lose some of these. Files that it names are not read.
+/// A node with an extension.
+struct ExtendedNode {
+    std::optional<std::size_t> index = {};  ///< nullopt: it is not in the file yet
+    std::string name = {};
+    glm::dvec3 translation{0.0};
+    glm::dquat rotation{1.0, 0.0, 0.0, 0.0};
+    glm::dvec3 scale{1.0};
+    nlohmann::ordered_json extension = {};  ///< its object
+
+    friend bool operator==(const ExtendedNode&, const ExtendedNode&) = default;
+};
+
+/// A .gltf or .glb whose materials, and nodes with an extension, are edited. Everything that an edit does not name is
+/// kept: the order of members, extras, unknown extensions and the other chunks of a GLB. For this the document is held
+/// as the file's JSON, since tinygltf's writer would lose some of these. Files that it names are not read.
 ///
 /// Undo and redo keep copies from before and after each edit. Copies share the binary chunk, what is known of the file
-/// on disk and, until one of them is edited, the JSON. Indices of materials, meshes and textures that are out of range
-/// are logic errors.
+/// on disk and, until one of them is edited, the JSON. Indices of materials, meshes, nodes and textures that are out of
+/// range are logic errors.
 class EditableGltf {
  public:
     enum class IfChanged { Refuse, Overwrite };
@@ -57,6 +71,12 @@ class EditableGltf {
     /// from it and from "extensionsRequired".
     void set_material_extension(std::size_t material, const std::string& extension,
                                 const nlohmann::ordered_json& value);
+
+    /// The nodes with that extension, in the order of the file. A matrix is given as translation, rotation and scale.
+    std::vector<ExtendedNode> nodes_with(const std::string& extension) const;
+    /// Sets the extension, translation and rotation of these nodes where they differ, and takes the extension from all
+    /// others. Those that are not in the file become nodes of its scene.
+    void set_nodes_with(const std::string& extension, std::span<const ExtendedNode> nodes);
 
     /// Gives a primitive a material that no other primitive uses: the one that it has, if that is so already, else a
     /// renamed copy of it, or a new one if it has none. Returns the material's index.
@@ -100,6 +120,7 @@ class EditableGltf {
     /// The JSON for editing, from now on not shared with copies.
     OrderedJson& edit();
     const OrderedJson& array(const char* name) const;  ///< of the root; empty if it is missing
+    void add_node(const std::string& extension, const ExtendedNode& node);
     void rename_copy(OrderedJson& copy, const std::string& original);
     void list_extensions(const std::set<std::string>& before, const std::set<std::string>& now);
     std::span<const std::byte> appended() const;

@@ -177,6 +177,7 @@ class NodeImport {
         if (const auto probe = node.extensions.find(kProbeExtension); probe != node.extensions.end()) {
             scene_.probes.push_back(
                 probe_of(probe->second, at, document_.file, pointer + "/extensions/" + kProbeExtension));
+            scene_.probes.back().gltf_node = index;
             if (glm::determinant(glm::mat3(scene_.nodes.back().world)) == 0.0F)
                 scene_.warnings.push_back(fmt::format("{}: the box has no volume and lights nothing", pointer));
         }

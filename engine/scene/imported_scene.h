@@ -125,9 +125,10 @@ struct ImportedCamera {
 /// ROWLAND_light_probe: the light in a box about a node.
 struct ImportedProbe {
     std::size_t node = 0;
-    glm::vec3 size_m{1.0F};      ///< of the box along the node's axes, to be multiplied by its scale
-    float fade_m = 1.0F;         ///< distance beyond the box over which its light fades to other light
-    std::filesystem::path file;  ///< the cooked probe, relative to the glTF's folder
+    glm::vec3 size_m{1.0F};                     ///< of the box along the node's axes, to be multiplied by its scale
+    float fade_m = 1.0F;                        ///< distance beyond the box over which its light fades to other light
+    std::filesystem::path file;                 ///< the cooked probe, relative to the glTF's folder
+    std::optional<std::size_t> gltf_node = {};  ///< the node's index in the glTF file; not in cooked scenes
     /// Cooked scenes only: the probe's payload; equal probes are shared. Null: the file was missing.
     std::shared_ptr<const std::vector<std::byte>> cooked = {};
 };

@@ -6,6 +6,7 @@
 
 #include "engine/core/file.h"
 #include "engine/image/byte_image.h"
+#include "engine/scene/gltf_import.h"
 #include "modules/diffraction/asset/material.h"
 #include "tests/support/light.h"
 #include "tests/support/program.h"
@@ -406,6 +407,23 @@ TEST_F(InspectorWindow, AFilmIsMadeFromNothingAttachedToASceneAndSaved) {
     user.click("material walnut");
     user.wait_for("chosen material", "walnut");
     EXPECT_EQ(material(user.facts()), saved);
+
+    user.click("light boxes");
+    user.click("add box");
+    const std::string added = user.facts().at("box is");
+    for (const char* field : {"box size", "box position", "box rotation", "box fade"}) user.drag(field, {20, 0});
+    user.click("box probe");
+    user.enter("room/films.probe");
+    user.wait_for("box is", "room/films.probe");
+    EXPECT_NE(user.facts().at("box is"), added);
+    user.key("ctrl+s");
+    user.wait_for("message", "saved");
+    const scene::ImportedScene with_box = scene::load_gltf(path("films.glb"), {});
+    ASSERT_EQ(with_box.probes.size(), 1U);
+    EXPECT_EQ(with_box.probes[0].file, "room/films.probe");
+    user.click("remove box");
+    user.key("ctrl+z");
+    user.wait_for("box is", "room/films.probe");
     user.click("compare");
     EXPECT_EQ(user.leave(), 0);
 }

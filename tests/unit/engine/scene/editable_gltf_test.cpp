@@ -291,6 +291,60 @@ TEST(EditableGltf, StaysInTheFolderOfTheFilesThatItNames) {
     EXPECT_FALSE(fs::exists(folder.path() / "other"));
 }
 
+/// One node by its parts, one by a matrix, and one without the extension.
+constexpr const char* kNodes = R"({"asset":{"version":"2.0"},"extensionsUsed":["TEST_grating","OTHER"],
+    "scene":1,"scenes":[{"nodes":[0]},{"nodes":[1,2]}],
+    "nodes":[{"name":"hall","translation":[1,2.5,3],"extras":7,"extensions":{"TEST_grating":{"a":1,"b":2},"OTHER":{}}},
+        {"matrix":[0,0,-2,0, 0,1,0,0, 3,0,0,0, 5,6,7,1],"extensions":{"TEST_grating":{"a":3}}},
+        {"name":"plain","extensions":{"OTHER":{}}}]})";
+
+TEST(EditableGltf, NodesWithAnExtensionAreMovedAddedAndFreedOfIt) {
+    EditableGltf gltf(bytes_of(kNodes), "a.gltf");
+    const OrderedJson before = json_of(gltf);
+    std::vector<ExtendedNode> nodes = gltf.nodes_with(kName);
+    ASSERT_EQ(nodes.size(), 2U);
+    EXPECT_EQ(nodes[0].name, "hall");
+    EXPECT_EQ(nodes[0].translation, glm::dvec3(1.0, 2.5, 3.0));
+    EXPECT_EQ(nodes[0].extension, (OrderedJson{{"a", 1}, {"b", 2}}));
+    EXPECT_EQ(nodes[1].translation, glm::dvec3(5.0, 6.0, 7.0));
+    EXPECT_EQ(nodes[1].scale, glm::dvec3(2.0, 1.0, 3.0));
+    EXPECT_LT(glm::distance(nodes[1].rotation * glm::dvec3(1.0, 0.0, 0.0), glm::dvec3(0.0, 0.0, -1.0)), 1e-12);
+    gltf.set_nodes_with(kName, nodes);
+    EXPECT_EQ(json_of(gltf), before);
+
+    nodes[0].extension = {{"b", 4}};
+    nodes[1].translation.y = 0.1;
+    nodes.push_back({.name = "new", .translation = {9.0, 0.0, 0.0}, .extension = {{"a", 5}}});
+    gltf.set_nodes_with(kName, nodes);
+    const OrderedJson after = json_of(gltf);
+    EXPECT_EQ(after["nodes"][0]["extras"], 7);
+    EXPECT_EQ(after["nodes"][0]["extensions"], OrderedJson::parse(R"({"TEST_grating":{"b":4},"OTHER":{}})"));
+    EXPECT_FALSE(after["nodes"][0].contains("rotation"));
+    EXPECT_FALSE(after["nodes"][1].contains("matrix"));
+    EXPECT_EQ(after["nodes"][1]["scale"], OrderedJson({2.0, 1.0, 3.0}));
+    EXPECT_EQ(after["nodes"][2], before["nodes"][2]);
+    EXPECT_EQ(after["nodes"][3]["name"], "new");
+    EXPECT_EQ(after["scenes"], OrderedJson::parse(R"([{"nodes":[0]},{"nodes":[1,2,3]}])"));
+    nodes[2].index = 3;
+    EXPECT_EQ(gltf.nodes_with(kName), nodes);
+
+    gltf.set_nodes_with(kName, {});
+    const OrderedJson freed = json_of(gltf);
+    EXPECT_EQ(freed["nodes"].size(), 4U);
+    EXPECT_FALSE(freed["nodes"][1].contains("extensions"));
+    EXPECT_EQ(freed["nodes"][0]["extensions"], OrderedJson::parse(R"({"OTHER":{}})"));
+    EXPECT_EQ(freed["extensionsUsed"], OrderedJson({"OTHER"}));
+}
+
+TEST(EditableGltf, ANodeIsAddedToAFileWithoutScenes) {
+    EditableGltf gltf(bytes_of(R"({"asset":{"version":"2.0"}})"), "a.gltf");
+    gltf.set_nodes_with(kName, std::vector<ExtendedNode>{{.name = "new", .extension = {{"a", 5}}}});
+    EXPECT_EQ(json_of(gltf),
+              OrderedJson::parse(R"({"asset":{"version":"2.0"},"nodes":[{"name":"new","translation":[0.0,0.0,0.0],
+                  "rotation":[0.0,0.0,0.0,1.0],"extensions":{"TEST_grating":{"a":5}}}],
+                  "extensionsUsed":["TEST_grating"]})"));
+}
+
 TEST(EditableGltf, RefusesWhatIsNoGltf) {
     const auto refusal = [](const std::string& text) {
         return message_of([&] { EditableGltf(bytes_of(text), "a.gltf"); });
@@ -308,6 +362,10 @@ TEST(EditableGltf, RefusesWhatIsNoGltf) {
     EXPECT_THAT(with(R"("extensionsUsed":[1])"), HasSubstr("/extensionsUsed"));
     EXPECT_THAT(with(R"("images":[{"uri":1}])"), HasSubstr("/images/0/uri"));
     EXPECT_THAT(with(R"("buffers":3)"), HasSubstr("/buffers"));
+    EXPECT_THAT(with(R"("nodes":[{"translation":[1,2]}])"), HasSubstr("/nodes/0/translation"));
+    EXPECT_THAT(with(R"("nodes":[{"extensions":[]}])"), HasSubstr("/nodes/0/extensions"));
+    EXPECT_THAT(with(R"("scenes":[{"nodes":0}])"), HasSubstr("/scenes/0/nodes"));
+    EXPECT_THAT(with(R"("scenes":[{}],"scene":1)"), HasSubstr("/scene"));
 }
 
 }  // namespace
