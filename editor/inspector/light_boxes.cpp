@@ -51,7 +51,7 @@ glm::dquat rotation_of(const glm::dvec3& degrees) {
     return {rounded(rotation.w), rounded(rotation.x), rounded(rotation.y), rounded(rotation.z)};
 }
 
-struct Drag {
+struct BoxDrag {
     const char* label;
     const char* name;  ///< for the control map
     const char* help;
@@ -60,17 +60,17 @@ struct Drag {
     double maximum;
     const char* format;
 };
-constexpr Drag kSize{"Size", "box size", "Width, height and depth; times the scale of the box's node", 0.01F, 1e-3,
-                     1e6,    "%.5g m"};
-constexpr Drag kPosition{"Position", "box position", "Of its centre, relative to its node's parent", 0.01F, -1e6,
-                         1e6,        "%.5g m"};
-constexpr Drag kRotation{"Rotation", "box rotation", "About the vertical, then its own x, then its own z", 0.5F, -360.0,
-                         360.0,      "%.5g°"};
-constexpr Drag kFade{"Fade", "box fade", "How far beyond the box its light gives way to other light", 0.01F, 0.0,
-                     1e6,    "%.5g m"};
+constexpr BoxDrag kBoxSize{
+    "Size", "box size", "Width, height and depth; times the scale of the box's node", 0.01F, 1e-3, 1e6, "%.5g m"};
+constexpr BoxDrag kBoxPosition{"Position", "box position", "Of its centre, relative to its node's parent", 0.01F, -1e6,
+                               1e6,        "%.5g m"};
+constexpr BoxDrag kBoxRotation{
+    "Rotation", "box rotation", "About the vertical, then its own x, then its own z", 0.5F, -360.0, 360.0, "%.5g°"};
+constexpr BoxDrag kBoxFade{"Fade", "box fade", "How far beyond the box its light gives way to other light", 0.01F, 0.0,
+                           1e6,    "%.5g m"};
 
 /// Whether the user changed one of the numbers.
-bool draw_drag(const Drag& drag, double* numbers, int count, ControlMap& controls) {
+bool draw_box_drag(const BoxDrag& drag, double* numbers, int count, ControlMap& controls) {
     ImGui::AlignTextToFramePadding();
     ImGui::TextUnformatted(drag.label);
     begin_control(5.2F);
@@ -133,18 +133,12 @@ void LightBoxPanel::draw_list(Document& document, const SceneObject& scene, Cont
         document.finish_edit();
         document.set_boxes(std::move(boxes));
         document.finish_edit();
-        typed_.reset();
-        refusal_.clear();
     };
     for (std::size_t i = 0; i < document.boxes().size(); ++i) {
         ImGui::PushID(static_cast<int>(i));
         const Box& box = document.boxes()[i];
         const std::string label = (box.name.empty() ? probe_of(box) : box.name) + "##box";
-        if (ImGui::Selectable(label.c_str(), i == chosen_)) {
-            chosen_ = i;
-            typed_.reset();
-            refusal_.clear();
-        }
+        if (ImGui::Selectable(label.c_str(), i == chosen_)) chosen_ = i;
         controls.mark(fmt::format("box {}", i));
         ImGui::PopID();
     }
@@ -163,31 +157,31 @@ void LightBoxPanel::draw_list(Document& document, const SceneObject& scene, Cont
 }
 
 void LightBoxPanel::draw_fields(Document& document, ControlMap& controls) {
+    draw_probe(document, controls);
     std::vector<Box> boxes = document.boxes();
     Box& box = boxes[chosen_];
-    draw_probe(document, controls);
     const auto finish = [&] {
         if (ImGui::IsItemDeactivatedAfterEdit()) document.finish_edit();
     };
     glm::dvec3 size = size_of(box);
-    if (draw_drag(kSize, &size.x, 3, controls)) {
+    if (draw_box_drag(kBoxSize, &size.x, 3, controls)) {
         set_size(box, size);
         document.set_boxes(boxes);
     }
     finish();
-    if (draw_drag(kPosition, &box.translation.x, 3, controls)) {
+    if (draw_box_drag(kBoxPosition, &box.translation.x, 3, controls)) {
         for (int i = 0; i < 3; ++i) box.translation[i] = rounded(box.translation[i]);
         document.set_boxes(boxes);
     }
     finish();
     glm::dvec3 angles = angles_of(box.rotation);
-    if (draw_drag(kRotation, &angles.x, 3, controls)) {
+    if (draw_box_drag(kBoxRotation, &angles.x, 3, controls)) {
         box.rotation = rotation_of(angles);
         document.set_boxes(boxes);
     }
     finish();
     double fade = box.extension.value("fade_m", kDefaultFade_m);
-    if (draw_drag(kFade, &fade, 1, controls)) {
+    if (draw_box_drag(kBoxFade, &fade, 1, controls)) {
         box.extension["fade_m"] = rounded(fade);
         document.set_boxes(boxes);
     }
@@ -198,7 +192,12 @@ void LightBoxPanel::draw_fields(Document& document, ControlMap& controls) {
 
 void LightBoxPanel::draw_probe(Document& document, ControlMap& controls) {
     std::array<char, 512> buffer{};
-    const std::string text = typed_.value_or(probe_of(document.boxes()[chosen_]));
+    const std::string present = probe_of(document.boxes()[chosen_]);
+    if (std::exchange(typed_over_, present) != present) {
+        typed_.reset();
+        refusal_.clear();
+    }
+    const std::string text = typed_.value_or(present);
     std::strncpy(buffer.data(), text.c_str(), buffer.size() - 1);
     ImGui::AlignTextToFramePadding();
     ImGui::TextUnformatted("Probe");
@@ -214,8 +213,6 @@ void LightBoxPanel::draw_probe(Document& document, ControlMap& controls) {
             document.finish_edit();
             document.set_boxes(std::move(boxes));
             document.finish_edit();
-            typed_.reset();
-            refusal_.clear();
         } catch (const Error& error) {
             refusal_ = error.what();
         }

@@ -38,6 +38,7 @@ class LightBoxPanel {
     bool open_ = false;  ///< in the last frame
     std::size_t chosen_ = 0;
     std::optional<std::string> typed_;  ///< name of the probe's file
+    std::string typed_over_;            ///< the name that it replaces
     std::string refusal_;               ///< of typed_
 };
 
