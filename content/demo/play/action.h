@@ -71,7 +71,7 @@ enum class Setting {
     FNumber,
     Grain,
     GratingsMs,
-    Rung,  ///< chosen within GratingsMs, not by the user: the place of a grating's rung, from 0, the cheapest
+    Rung,  ///< chosen within GratingsMs, not by the user: the index of a grating's rung, from 0, the cheapest
     Wipe,
     WipeLine,
     Probe,
