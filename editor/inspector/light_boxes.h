@@ -26,7 +26,7 @@ class LightBoxPanel {
  public:
     /// Into the current ImGui window.
     void draw(Document& document, const SceneObject& scene, ControlMap& controls);
-    /// Draws the boxes' edges over a picture at that place, while their list is open.
+    /// Draws the boxes' edges over the picture in that rectangle, while their list is open.
     void draw_edges(const Document& document, const SceneObject& scene, const Preview& preview, const ImVec2& corner,
                     const ImVec2& size) const;
 
