@@ -39,7 +39,8 @@ void set_size(Box& box, const glm::dvec3& size) {
 /// About Y, then X, then Z of the rotated node, in degrees.
 glm::dvec3 angles_of(const glm::dquat& rotation) {
     const glm::dmat3 axes = glm::mat3_cast(glm::normalize(rotation));
-    return glm::degrees(glm::dvec3(std::atan2(axes[2][0], axes[2][2]), std::asin(std::clamp(-axes[2][1], -1.0, 1.0)),
+    return glm::degrees(glm::dvec3(std::atan2(axes[2][0], axes[2][2]),
+                                   std::asin(std::clamp(0.0 - axes[2][1], -1.0, 1.0)),
                                    std::atan2(axes[0][1], axes[1][1])));
 }
 
