@@ -105,7 +105,7 @@ Box new_light_box(const Document& document, const SceneObject& scene) {
     return box;
 }
 
-glm::mat4 box_to_preview(const Box& box, const SceneObject& scene) {
+glm::mat4 box_to_scene(const Box& box, const SceneObject& scene) {
     // A node's index in the imported scene differs from its index in the file.
     const scene::ImportedScene& imported = scene.imported;
     const auto probe = std::ranges::find(imported.probes, box.index, &scene::ImportedProbe::gltf_node);
@@ -114,7 +114,7 @@ glm::mat4 box_to_preview(const Box& box, const SceneObject& scene) {
         if (const auto parent = imported.nodes[probe->node].parent) above = imported.nodes[*parent].world;
     glm::dmat4 local = glm::translate(glm::dmat4(1.0), box.translation) * glm::mat4_cast(glm::normalize(box.rotation));
     local = glm::scale(local, box.scale * size_of(box));
-    return scene.fit.matrix() * above * glm::mat4(local);
+    return above * glm::mat4(local);
 }
 
 void LightBoxPanel::draw(Document& document, const SceneObject& scene, ControlMap& controls) {
@@ -228,12 +228,12 @@ void LightBoxPanel::draw_edges(const Document& document, const SceneObject& scen
     ImDrawList& draw = *ImGui::GetWindowDrawList();
     draw.PushClipRect(corner, {corner.x + size.x, corner.y + size.y}, true);
     for (std::size_t i = 0; i < document.boxes().size(); ++i) {
-        const glm::mat4 to_preview = box_to_preview(document.boxes()[i], scene);
+        const glm::mat4 to_world = preview.scene_to_world() * box_to_scene(document.boxes()[i], scene);
         const ImU32 colour = i == chosen_ ? IM_COL32(255, 210, 60, 255) : IM_COL32(255, 210, 60, 110);
         const auto piece = [&](const glm::vec3& from, const glm::vec3& to) {
             std::array<glm::vec2, 2> ends{};
             for (std::size_t end = 0; end < 2; ++end) {
-                const glm::vec4 point = to_preview * glm::vec4(end == 0 ? from : to, 1.0F);
+                const glm::vec4 point = to_world * glm::vec4(end == 0 ? from : to, 1.0F);
                 ends[end] = preview.project(glm::vec3(point));
                 if (ends[end] == glm::vec2(-1.0F)) return;
             }

@@ -18,8 +18,8 @@ namespace rowland::inspector {
 /// A box around the scene, upright, whose probe has a file name of its own.
 scene::ExtendedNode new_light_box(const Document& document, const SceneObject& scene);
 
-/// From the unit cube around the origin to the box in the preview.
-glm::mat4 box_to_preview(const scene::ExtendedNode& box, const SceneObject& scene);
+/// From the unit cube around the origin to the box in the scene.
+glm::mat4 box_to_scene(const scene::ExtendedNode& box, const SceneObject& scene);
 
 /// The boxes of a scene with a light probe of their own: their list, and the fields of the chosen one.
 class LightBoxPanel {

@@ -305,6 +305,10 @@ glm::vec2 Preview::project(const glm::vec3& position) const {
     return in_picture(rotated_camera(inputs_), aspect(), position);
 }
 
+glm::mat4 Preview::scene_to_world() const {
+    return root_transform(inputs_).matrix();
+}
+
 void Preview::draw_grooves() {
     if (!overlay_) overlay_.emplace();
     const scene::Camera camera = rotated_camera(inputs_);

@@ -106,6 +106,8 @@ class Preview {
     std::optional<glm::vec4> sphere_of(std::size_t material);
     /// From the preview's world to its picture, as pick() takes points.
     glm::vec2 project(const glm::vec3& position) const;
+    /// From a scene's axes to those of the preview.
+    glm::mat4 scene_to_world() const;
     /// A surface that was picked earlier, under the current rotation of the stage.
     PickedSurface under_current_rotation(const PickedSurface& surface) const;
     /// The ray through a point of the last frame.

@@ -61,27 +61,22 @@ TEST_F(LightBoxes, AreAddedMovedTakenBackAndSaved) {
     EXPECT_FALSE(document.dirty());
 }
 
-TEST(LightBox, ItsEdgesLieInThePreviewWhereTheFileHasIt) {
+TEST(LightBox, ItsCornersLieWhereTheFileHasThem) {
     scene::ExtendedNode box{.index = 7, .translation = {1.0, 0.0, 0.0}, .scale = {1.0, 1.0, 2.0}};
     box.rotation = glm::angleAxis(std::numbers::pi / 2.0, glm::dvec3(0.0, 1.0, 0.0));
     box.extension = Json::parse(R"({"size_m": [2, 4, 6]})");
-    SceneObject scene{.file = {},
-                      .imported = {},
-                      .meshes = {},
-                      .materials = {},
-                      .without_material = {},
-                      .bounds = {},
-                      .fit = {.scale = glm::vec3(0.5F)}};
-    const auto corner = [&] { return glm::vec3(box_to_preview(box, scene) * glm::vec4(0.5F, 0.5F, 0.5F, 1.0F)); };
+    SceneObject scene{
+        .file = {}, .imported = {}, .meshes = {}, .materials = {}, .without_material = {}, .bounds = {}, .fit = {}};
+    const auto corner = [&] { return glm::vec3(box_to_scene(box, scene) * glm::vec4(0.5F, 0.5F, 0.5F, 1.0F)); };
     // Its depth of 12 m lies along x, its width along −z.
-    EXPECT_LT(glm::distance(corner(), 0.5F * glm::vec3(7.0F, 2.0F, -1.0F)), 1e-5F);
+    EXPECT_LT(glm::distance(corner(), glm::vec3(7.0F, 2.0F, -1.0F)), 1e-5F);
     scene.imported.nodes.resize(2);
     scene.imported.nodes[0].world = glm::translate(glm::mat4(1.0F), glm::vec3(0.0F, 10.0F, 0.0F));
     scene.imported.nodes[1].parent = 0;
     scene::ImportedProbe& probe = scene.imported.probes.emplace_back();
     probe.node = 1;
     probe.gltf_node = 7;
-    EXPECT_LT(glm::distance(corner(), 0.5F * glm::vec3(7.0F, 12.0F, -1.0F)), 1e-5F) << "below its parent";
+    EXPECT_LT(glm::distance(corner(), glm::vec3(7.0F, 12.0F, -1.0F)), 1e-5F) << "below its parent";
 }
 
 }  // namespace
