@@ -173,7 +173,6 @@ void Document::set_extension(const Json& object, const std::string& name) {
 
 void Document::edit(const Json& edited, const Field* field) {
     if (edited == json()) return;
-    steps_.resize(at_);
     if (field != nullptr && field == editing_ && at_ > 0)
         std::get<MaterialEdit>(steps_.back()).after = edited;
     else
@@ -186,7 +185,6 @@ void Document::set_boxes(std::vector<scene::ExtendedNode> boxes) {
     if (boxes == boxes_) return;
     for (const scene::ExtendedNode& box : boxes)
         scene::relative_path_of_uri(name_, box.extension.at("probe"), "the light probe of " + box.name);
-    steps_.resize(at_);
     if (editing_ == &boxes_ && at_ > 0)
         std::get<BoxEdit>(steps_.back()).after = boxes;
     else
@@ -196,6 +194,7 @@ void Document::set_boxes(std::vector<scene::ExtendedNode> boxes) {
 }
 
 void Document::add_step(Step step) {
+    steps_.resize(at_);
     steps_.push_back(std::move(step));
     if (steps_.size() > kMostSteps) steps_.erase(steps_.begin());
     at_ = steps_.size();
@@ -319,9 +318,7 @@ void Document::save_as(const std::filesystem::path& path) {
     for (std::size_t i = 0; i < slots_.size(); ++i) {
         const Json there = moved(slots_[i].json, from, folder_);
         if (there == slots_[i].json) continue;
-        steps_.resize(at_);
-        steps_.push_back(MaterialEdit{i, slots_[i].json, there});
-        at_ = steps_.size();
+        add_step(MaterialEdit{i, slots_[i].json, there});
         slots_[i].json = there;
         reparse(slots_[i]);
     }

@@ -20,7 +20,9 @@ namespace {
 
 using Box = scene::ExtendedNode;
 
-constexpr double kDefaultFade_m = 1.0;
+double default_fade_m() {
+    return static_cast<double>(scene::ImportedProbe{}.fade_m);
+}
 
 std::string probe_of(const Box& box) {
     return box.extension.at("probe").get<std::string>();
@@ -57,18 +59,33 @@ struct BoxDrag {
     const char* name;  ///< for the control map
     const char* help;
     float step;
-    double minimum;
-    double maximum;
+    NumberRange range;
     const char* format;
 };
-constexpr BoxDrag kBoxSize{
-    "Size", "box size", "Width, height and depth; times the scale of the box's node", 0.01F, 1e-3, 1e6, "%.5g m"};
-constexpr BoxDrag kBoxPosition{"Position", "box position", "Of its centre, relative to its node's parent", 0.01F, -1e6,
-                               1e6,        "%.5g m"};
-constexpr BoxDrag kBoxRotation{
-    "Rotation", "box rotation", "About the vertical, then its own x, then its own z", 0.5F, -360.0, 360.0, "%.5g°"};
-constexpr BoxDrag kBoxFade{"Fade", "box fade", "How far beyond the box its light gives way to other light", 0.01F, 0.0,
-                           1e6,    "%.5g m"};
+constexpr BoxDrag kBoxSize{.label = "Size",
+                           .name = "box size",
+                           .help = "Width, height and depth; times the scale of the box's node",
+                           .step = 0.01F,
+                           .range = scene::kProbeBoxSide,
+                           .format = "%.5g m"};
+constexpr BoxDrag kBoxPosition{.label = "Position",
+                               .name = "box position",
+                               .help = "Of its centre, relative to its node's parent",
+                               .step = 0.01F,
+                               .range = {.minimum = -1e6, .maximum = 1e6},
+                               .format = "%.5g m"};
+constexpr BoxDrag kBoxRotation{.label = "Rotation",
+                               .name = "box rotation",
+                               .help = "About the vertical, then its own x, then its own z",
+                               .step = 0.5F,
+                               .range = {.minimum = -360.0, .maximum = 360.0},
+                               .format = "%.5g°"};
+constexpr BoxDrag kBoxFade{.label = "Fade",
+                           .name = "box fade",
+                           .help = "How far beyond the box its light gives way to other light",
+                           .step = 0.01F,
+                           .range = scene::kProbeFade,
+                           .format = "%.5g m"};
 
 /// Whether the user changed one of the numbers.
 bool draw_box_drag(const BoxDrag& drag, double* numbers, int count, ControlMap& controls) {
@@ -77,7 +94,7 @@ bool draw_box_drag(const BoxDrag& drag, double* numbers, int count, ControlMap& 
     begin_control(5.2F);
     const bool changed =
         ImGui::DragScalarN((std::string("##") + drag.name).c_str(), ImGuiDataType_Double, numbers, count, drag.step,
-                           &drag.minimum, &drag.maximum, drag.format, ImGuiSliderFlags_AlwaysClamp);
+                           &drag.range.minimum, &drag.range.maximum, drag.format, ImGuiSliderFlags_AlwaysClamp);
     controls.mark(drag.name);
     if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", drag.help);
     return changed;
@@ -100,7 +117,7 @@ Box new_light_box(const Document& document, const SceneObject& scene) {
     const glm::dvec3 centre = 0.5F * (scene.bounds.minimum + scene.bounds.maximum);
     box.translation = {rounded(centre.x), rounded(centre.y), rounded(centre.z)};
     set_size(box, glm::max(glm::dvec3(scene.bounds.maximum - scene.bounds.minimum), glm::dvec3(kLeastSize_m)));
-    box.extension["fade_m"] = kDefaultFade_m;
+    box.extension["fade_m"] = default_fade_m();
     box.extension["probe"] = probe;
     return box;
 }
@@ -181,7 +198,7 @@ void LightBoxPanel::draw_fields(Document& document, ControlMap& controls) {
         document.set_boxes(boxes);
     }
     finish();
-    double fade = box.extension.value("fade_m", kDefaultFade_m);
+    double fade = box.extension.value("fade_m", default_fade_m());
     if (draw_box_drag(kBoxFade, &fade, 1, controls)) {
         box.extension["fade_m"] = rounded(fade);
         document.set_boxes(boxes);

@@ -127,6 +127,16 @@ void assign_members(OrderedJson& old, const OrderedJson& now) {
     for (const auto& [key, value] : now.items()) assign_members(old[key], value);
 }
 
+/// Sets the extension of a material or a node, or removes it if `value` is null.
+void set_extension(OrderedJson& owner, const std::string& extension, const OrderedJson& value) {
+    if (!value.is_null()) {
+        assign_members(owner["extensions"][extension], value);
+    } else if (owner.contains("extensions")) {
+        owner["extensions"].erase(extension);
+        if (owner["extensions"].empty()) owner.erase("extensions");
+    }
+}
+
 /// A file name without what URIs and file systems treat specially.
 std::string plain_name(const std::string& name) {
     std::string plain;
@@ -188,13 +198,7 @@ void EditableGltf::set_material_extension(std::size_t material, const std::strin
         return names;
     };
     const std::set<std::string> before = names_in(material_extension(material, extension));
-    OrderedJson& owner = edit()["materials"][material];
-    if (!value.is_null()) {
-        assign_members(owner["extensions"][extension], value);
-    } else if (owner.contains("extensions")) {
-        owner["extensions"].erase(extension);
-        if (owner["extensions"].empty()) owner.erase("extensions");
-    }
+    set_extension(edit()["materials"][material], extension, value);
     list_extensions(before, names_in(value));
 }
 
@@ -210,12 +214,9 @@ std::vector<ExtendedNode> EditableGltf::nodes_with(const std::string& extension)
 void EditableGltf::set_nodes_with(const std::string& extension, std::span<const ExtendedNode> nodes) {
     const std::vector<ExtendedNode> before = nodes_with(extension);
     OrderedJson& root = edit();
-    for (const ExtendedNode& old : before) {
-        if (std::ranges::find(nodes, old.index, &ExtendedNode::index) != nodes.end()) continue;
-        OrderedJson& node = root["nodes"][*old.index];
-        node["extensions"].erase(extension);
-        if (node["extensions"].empty()) node.erase("extensions");
-    }
+    for (const ExtendedNode& old : before)
+        if (std::ranges::find(nodes, old.index, &ExtendedNode::index) == nodes.end())
+            set_extension(root["nodes"][*old.index], extension, nullptr);
     for (const ExtendedNode& node : nodes) {
         const auto old = std::ranges::find(before, node.index, &ExtendedNode::index);
         if (!node.index || old == before.end()) {
@@ -223,7 +224,7 @@ void EditableGltf::set_nodes_with(const std::string& extension, std::span<const 
             continue;
         }
         OrderedJson& owner = root["nodes"][*node.index];
-        assign_members(owner["extensions"][extension], node.extension);
+        set_extension(owner, extension, node.extension);
         if (node.translation == old->translation && node.rotation == old->rotation) continue;
         if (owner.erase("matrix") > 0) owner["scale"] = array_of(node.scale);
         owner["translation"] = array_of(node.translation);

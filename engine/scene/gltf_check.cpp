@@ -109,8 +109,6 @@ constexpr NumberRange kNotNegative{.minimum = 0.0, .maximum = std::numeric_limit
 constexpr NumberRange kIntensity{.minimum = 0.0, .maximum = 1e12};
 constexpr NumberRange kLightRange{.minimum = 0.0, .maximum = 1e12, .exclusive_minimum = true};
 // Of a probe's box, in metres.
-constexpr NumberRange kBoxSide{.minimum = 1e-3, .maximum = 1e6};
-constexpr NumberRange kFade{.minimum = 0.0, .maximum = 1e6};
 constexpr NumberRange kInnerCone{.minimum = 0.0, .maximum = std::numbers::pi / 2.0, .exclusive_maximum = true};
 // Exporters write π / 2 in digits that may round up.
 constexpr NumberRange kOuterCone{.minimum = 0.0, .maximum = std::numbers::pi / 2.0 + 1e-6, .exclusive_minimum = true};
@@ -206,7 +204,7 @@ constexpr std::array kLight = {text("name"),
 constexpr std::array kLights = {!objects("lights", kLight, sizeof(gltf::Light))};
 
 constexpr std::array kNodeLight = {!index("light", "/extensions/KHR_lights_punctual/lights")};
-constexpr std::array kNodeProbe = {!numbers("size_m", 3, kBoxSide), number("fade_m", kFade), !text("probe")};
+constexpr std::array kNodeProbe = {!numbers("size_m", 3, kProbeBoxSide), number("fade_m", kProbeFade), !text("probe")};
 constexpr std::array kNodeExtensions = {object(kLightExtension, kNodeLight),
                                         our_extension(kProbeExtension, kNodeProbe)};
 constexpr std::array kNode = {text("name"),

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/core/json_reader.h"
 #include "engine/scene/gltf_source.h"
 
 namespace rowland::scene {
@@ -16,6 +17,9 @@ inline constexpr const char* kLightExtension = "KHR_lights_punctual";
 inline constexpr const char* kTextureTransformExtension = "KHR_texture_transform";
 inline constexpr const char* kWearExtension = "ROWLAND_materials_wear";
 inline constexpr const char* kProbeExtension = "ROWLAND_light_probe";
+/// Of its boxes, in metres.
+inline constexpr NumberRange kProbeBoxSide{.minimum = 1e-3, .maximum = 1e6};
+inline constexpr NumberRange kProbeFade{.minimum = 0.0, .maximum = 1e6};
 
 /// The JSON Schemas of the engine's own extensions, by name.
 std::map<std::string, std::function<nlohmann::ordered_json()>> own_extension_schemas();
