@@ -147,6 +147,10 @@ void StreamBuffer::bind_storage(unsigned binding, std::size_t offset, std::size_
     buffer_.bind_storage(binding, copy_ * stride_ + offset, bytes);
 }
 
+std::pair<GLuint, GLintptr> StreamBuffer::location(std::size_t offset) const {
+    return {buffer_.id(), static_cast<GLintptr>(copy_ * stride_ + offset)};
+}
+
 void StreamBuffer::ReleaseTexture::operator()(GLuint name) const {
     glDeleteTextures(1, &name);
     bound_state().forget(BoundState::Slot::Texture, name);
@@ -191,6 +195,21 @@ void VertexArray::attach(const Buffer& buffer, int stride, std::initializer_list
     }
 }
 
+namespace {
+
+constexpr unsigned kInstanceVector = 3 * sizeof(float);
+
+}  // namespace
+
+void VertexArray::attach_instances(unsigned first, unsigned count) {
+    instances_ = {.binding = bindings_++, .first = first, .count = count};
+    glVertexArrayBindingDivisor(id(), instances_.binding, 1);
+    for (unsigned i = 0; i < count; ++i) {
+        glVertexArrayAttribFormat(id(), first + i, 3, GL_FLOAT, GL_FALSE, i * kInstanceVector);
+        glVertexArrayAttribBinding(id(), first + i, instances_.binding);
+    }
+}
+
 void VertexArray::attach_indices(const Buffer& buffer) {
     glVertexArrayElementBuffer(id(), buffer.id());
     indices_ = buffer.size() / sizeof(std::uint32_t);
@@ -210,6 +229,18 @@ void VertexArray::draw_indexed(int count) const {
     ROWLAND_CHECK_OP(static_cast<std::size_t>(count), <=, indices_);
     bind();
     glDrawElements(GL_TRIANGLES, count, GL_UNSIGNED_INT, nullptr);
+}
+
+void VertexArray::draw_instances(int count, const StreamBuffer& buffer, std::size_t offset, int instances) const {
+    const std::size_t stride = std::size_t{instances_.count} * kInstanceVector;
+    ROWLAND_CHECK_OP(static_cast<std::size_t>(count), <=, indices_);
+    ROWLAND_CHECK_OP(offset + static_cast<std::size_t>(instances) * stride, <=, buffer.size());
+    const auto [name, begin] = buffer.location(offset);
+    glVertexArrayVertexBuffer(id(), instances_.binding, name, begin, static_cast<GLsizei>(stride));
+    if (!std::exchange(instances_.enabled, true))
+        for (unsigned i = 0; i < instances_.count; ++i) glEnableVertexArrayAttrib(id(), instances_.first + i);
+    bind();
+    glDrawElementsInstanced(GL_TRIANGLES, count, GL_UNSIGNED_INT, nullptr, instances);
 }
 
 }  // namespace rowland::gpu

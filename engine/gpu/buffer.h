@@ -8,6 +8,7 @@
 #include <optional>
 #include <span>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "engine/gpu/handle.h"
@@ -109,6 +110,10 @@ class StreamBuffer {
     /// Binds all of it to a texture unit, as texels of three floats for a samplerBuffer.
     void bind_texels(unsigned unit) const;
 
+    /// Where the content lies from `offset` on: a buffer's name, and bytes from its beginning. Valid until it is
+    /// written or kept.
+    std::pair<GLuint, GLintptr> location(std::size_t offset) const;
+
     /// Bytes of the content.
     std::size_t size() const { return size_; }
     /// Number of calls of write().
@@ -158,11 +163,16 @@ class VertexArray {
     void attach(const Buffer& buffer, int stride, std::initializer_list<VertexAttribute> attributes);
     /// 32-bit indices.
     void attach_indices(const Buffer& buffer);
+    /// Attributes that draw_instances() reads once for each instance: `count` vectors of three floats, one after the
+    /// other, at locations from `first` on.
+    void attach_instances(unsigned first, unsigned count);
 
     /// Triangles from `count` vertices.
     void draw(int count, int instances = 1) const;
     /// Triangles from the first `count` indices.
     void draw_indexed(int count) const;
+    /// Draws them for each of so many instances, whose attributes lie in `buffer` from `offset` on.
+    void draw_instances(int count, const StreamBuffer& buffer, std::size_t offset, int instances) const;
 
     GLuint id() const { return handle_.get(); }
 
@@ -174,6 +184,12 @@ class VertexArray {
 
     Handle<Release> handle_;
     unsigned bindings_ = 0;
+    struct {
+        unsigned binding = 0;
+        unsigned first = 0;
+        unsigned count = 0;
+        mutable bool enabled = false;  ///< not before a buffer is there
+    } instances_;
     std::size_t indices_ = 0;
 };
 

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <glm/gtc/matrix_inverse.hpp>
 #include <glm/matrix.hpp>
 #include <tuple>
+#include <unordered_map>
 #include <utility>
 
 #include "engine/core/check.h"
@@ -26,6 +28,50 @@ void add_pose(ecs::World& world, Draw& draw, std::vector<glm::mat4>& joints) {
     draw.first_joint = joints.size();
     draw.bounds = transformed(posed_bounds(draw.mesh->bounds(), pose), draw.matrix);
     joints.insert(joints.end(), pose.begin(), pose.end());
+}
+
+/// What a number of Draw::repeated stands for.
+struct Alike {
+    const GpuMesh* mesh;
+    const MaterialType* type;
+    SurfaceFeatures features;
+    const StandardMaterial* material;
+
+    friend bool operator==(const Alike& a, const Alike& b) {
+        return std::tie(a.mesh, a.type, a.features) == std::tie(b.mesh, b.type, b.features) &&
+               *a.material == *b.material;
+    }
+};
+
+struct HashOfAlike {
+    std::size_t operator()(const Alike& alike) const {
+        const StandardMaterial& material = *alike.material;
+        std::size_t hash = std::hash<const void*>()(alike.mesh);
+        for (const float value : {material.base_colour.x, material.base_colour.y, material.base_colour.z,
+                                  material.metallic, material.roughness})
+            hash = 31 * hash + std::hash<float>()(value);
+        return 31 * hash + std::hash<const void*>()(material.base_colour_texture.texture.get());
+    }
+};
+
+void find_repeated(std::vector<Draw>& draws) {
+    struct Found {
+        std::size_t number;
+        int count = 0;
+    };
+    std::unordered_map<Alike, Found, HashOfAlike> found;
+    constexpr SurfaceFeatures kNever = feature::kSkinned | feature::kAlphaBlend;
+    for (Draw& draw : draws) {
+        if ((draw.features & kNever) != 0 || draw.columns != nullptr) continue;
+        Found& alike = found.try_emplace({draw.mesh, draw.type, draw.features, draw.material}, Found{found.size() + 1})
+                           .first->second;
+        ++alike.count;
+        draw.repeated = alike.number;
+    }
+    std::vector<bool> many(found.size() + 1, false);
+    for (const auto& [alike, of] : found) many[of.number] = of.count >= kLeastInstances;
+    for (Draw& draw : draws)
+        if (!many[draw.repeated]) draw.repeated = 0;
 }
 
 }  // namespace
@@ -52,6 +98,7 @@ DrawList gather_draws(ecs::World& world, std::span<const std::unique_ptr<Materia
                 draw.features &= ~feature::kObjectReflections;
             list.draws.push_back(draw);
         });
+    find_repeated(list.draws);
     return list;
 }
 
@@ -90,8 +137,60 @@ ObjectBlock object_block(const Draw& draw, const glm::mat3& rec709_to_working, f
 
 void sort_opaque(std::vector<const Draw*>& draws) {
     std::ranges::stable_sort(draws, {}, [](const Draw* draw) {
-        return std::tuple(draw->first.program, draw->first.kind, draw->light.first, draw->first.key, draw->distance2);
+        const auto alike = draw->is_instance()
+                               ? std::tuple(draw->first.binding, draw->repeated, draw->mirrored, draw->light.second,
+                                            draw->light.second_part)
+                               : std::tuple(std::uint64_t{0}, std::size_t{0}, false, std::size_t{0}, 0.0F);
+        return std::tuple(draw->first.program, draw->first.kind, draw->light.first, draw->first.key, alike,
+                          draw->distance2);
     });
+}
+
+namespace {
+
+bool lit_alike(const Draw& a, const Draw& b) {
+    const auto seen = [](const Draw& draw) {
+        return std::tie(draw.repeated, draw.light, draw.mirrored, draw.reflects, draw.features);
+    };
+    const auto bound = [](const Draw::Lit& lit) { return std::tie(lit.program, lit.key, lit.binding); };
+    return seen(a) == seen(b) && bound(a.first) == bound(b.first) && bound(a.second) == bound(b.second);
+}
+
+bool same_shadow(const Draw& a, const Draw& b) {
+    return a.repeated == b.repeated && a.shadow_program == b.shadow_program;
+}
+
+std::vector<Batch> batches(std::span<const Draw* const> draws, bool (*alike)(const Draw&, const Draw&)) {
+    std::vector<Batch> result;
+    std::size_t begin = 0;
+    for (std::size_t i = 0; i < draws.size(); ++i) {
+        const Draw& first = *draws[begin];
+        if (i > begin && first.is_instance() && draws[i]->is_instance() && alike(first, *draws[i])) {
+            result.back().draws = draws.subspan(begin, i - begin + 1);
+        } else {
+            begin = i;
+            result.push_back({.draws = draws.subspan(i, 1)});
+        }
+    }
+    return result;
+}
+
+}  // namespace
+
+std::vector<Batch> lit_batches(std::span<const Draw* const> draws) {
+    return batches(draws, lit_alike);
+}
+
+std::vector<Batch> shadow_batches(std::vector<const Draw*>& draws) {
+    std::ranges::stable_sort(draws, {}, [](const Draw* draw) {
+        return std::pair(draw->shadow_program, draw->is_instance() ? draw->repeated : 0);
+    });
+    return batches(draws, same_shadow);
+}
+
+Placement placement(const Draw& draw) {
+    return {.object_to_world = glm::mat4x3(draw.matrix),
+            .normal_to_world = glm::inverseTranspose(glm::mat3(draw.matrix))};
 }
 
 namespace {

@@ -47,8 +47,8 @@ struct Draw {
     struct Lit {
         const gpu::Program* program = nullptr;          ///< null if it is not drawn in the main pass
         const gpu::Program* overlay_program = nullptr;  ///< MaterialType::overlay_program(), or null
-        std::size_t block_offset = 0;                   ///< of its ObjectBlock in the renderer's buffer, bytes
         std::uint64_t key = 0;                          ///< MaterialType::program_key()
+        std::uint64_t binding = 0;                      ///< MaterialType::binding_key()
         std::uint64_t kind = 0;                         ///< DrawControl::kind(); 0: its time is not measured
     };
     Lit first = {};
@@ -59,6 +59,26 @@ struct Draw {
     const PictureColumns* columns = nullptr;       ///< null: all
     std::optional<ecs::Entity> reflects = {};      ///< the group of its ReflectsObjects
     const ObjectReflection* reflection = nullptr;  ///< of that group
+    /// Number of its mesh, type and material, if at least kLeastInstances draws have them; 0: they may not be
+    /// instances.
+    std::size_t repeated = 0;
+
+    bool is_instance() const { return (features & feature::kInstanced) != 0; }
+};
+
+/// From so many draws of a mesh and a material on, a program of their own is worth it.
+inline constexpr int kLeastInstances = 8;
+
+/// Draws that differ in nothing but their place, as one draw of instances, or any other draw.
+struct Batch {
+    std::span<const Draw* const> draws;  ///< one, or instances
+    /// Offsets in the renderer's buffer, bytes: of the ObjectBlock for each of the probes, and of instances'
+    /// Placements.
+    std::size_t first_block = 0;
+    std::size_t second_block = 0;
+    std::size_t placements = 0;
+
+    const Draw& front() const { return *draws.front(); }
 };
 
 struct DrawList {
@@ -81,8 +101,16 @@ UvTransform uv_transform(const scene::TextureTransform& transform);
 /// What shaders read of a draw that gives the fraction `part` of the surface's light.
 ObjectBlock object_block(const Draw& draw, const glm::mat3& rec709_to_working, float part);
 
-/// Sorts by program, kind, probe and material, for few changes of state, then from front to back, for little overdraw.
+/// Sorts by program, kind, probe, material and, of instances, what they show and their mesh, for few changes of state,
+/// then from front to back, for little overdraw.
 void sort_opaque(std::vector<const Draw*>& draws);
+
+/// The draws in their order; neighbours that are lit alike become instances. `draws` must outlive the result.
+std::vector<Batch> lit_batches(std::span<const Draw* const> draws);
+/// The same for shadow_program, which reads less of a draw. Sorts the draws.
+std::vector<Batch> shadow_batches(std::vector<const Draw*>& draws);
+
+Placement placement(const Draw& draw);
 
 /// The fixed-function state that draws a surface into a target of this size; nullopt if its columns
 /// are narrower than a pixel.

@@ -71,6 +71,12 @@ GpuMesh::GpuMesh(const scene::Mesh& mesh)
     joints_ = attach_if_present(vertices_, joints, 6, gpu::VertexNumber::UInt16);
     weights_ = attach_if_present(vertices_, mesh.weights, 7);
     vertices_.attach_indices(index_buffer_);
+    static_assert(sizeof(Placement) == 7 * sizeof(glm::vec3));
+    vertices_.attach_instances(8, 7);
+}
+
+void GpuMesh::draw_instances(const gpu::StreamBuffer& placements, std::size_t offset, int count) const {
+    vertices_.draw_instances(index_count_, placements, offset, count);
 }
 
 MeshInstance make_mesh_instance(scene::Mesh mesh) {

@@ -1,12 +1,20 @@
 #pragma once
 
 #include <cstddef>
+#include <glm/mat3x3.hpp>
+#include <glm/mat4x3.hpp>
 #include <memory>
 
 #include "engine/gpu/buffer.h"
 #include "engine/scene/mesh.h"
 
 namespace rowland::render {
+
+/// Where an instance of a mesh is drawn: attributes 8 to 14.
+struct Placement {
+    glm::mat4x3 object_to_world{1.0F};
+    glm::mat3 normal_to_world{1.0F};  ///< inverse transpose
+};
 
 /// A mesh on the GPU: position, normal and tangent interleaved at locations 0, 1 and 2. Optional
 /// attributes have separate buffers, so that programs which do not read them do not fetch them: first and second
@@ -16,6 +24,8 @@ class GpuMesh {
     explicit GpuMesh(const scene::Mesh& mesh);
 
     void draw() const { vertices_.draw_indexed(index_count_); }
+    /// Draws it at so many places, which lie in the buffer from `offset` on, with a program that has INSTANCED.
+    void draw_instances(const gpu::StreamBuffer& placements, std::size_t offset, int count) const;
 
     /// In the mesh's own space.
     const scene::Bounds& bounds() const { return bounds_; }

@@ -8,6 +8,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "engine/ecs/world.h"
@@ -26,6 +27,13 @@ struct SurfaceTexture {
     scene::TextureTransform transform;
 
     explicit operator bool() const { return texture != nullptr; }
+    friend bool operator==(const SurfaceTexture& a, const SurfaceTexture& b) {
+        const auto members = [](const SurfaceTexture& of) {
+            const auto& [offset, rotation, scale] = of.transform;
+            return std::tie(of.texture, of.uv_set, offset, rotation, scale);
+        };
+        return members(a) == members(b);
+    }
 };
 
 /// Component: the engine's metallic-roughness surface.
@@ -51,6 +59,8 @@ struct StandardMaterial {
     float clear_coat_roughness = 0.0F;  ///< perceptual
     SurfaceTexture wear_texture = {};   ///< scene::wear_map()
     bool scratched = true;              ///< whether wear_texture has scratches
+
+    friend bool operator==(const StandardMaterial&, const StandardMaterial&) = default;
 };
 
 /// A DirectionalLight of the scene in world axes.
@@ -87,6 +97,7 @@ struct LightMix {
 
     bool has_second() const { return second_part > 0.0F; }
     bool is_local() const { return first > 0 || has_second(); }
+    friend bool operator==(const LightMix&, const LightMix&) = default;
 };
 
 /// An entity that is drawn, and its light.
@@ -167,6 +178,11 @@ class MaterialType {
     /// Draws of equal keys have equal program(), which is then not called again, and are drawn one after the other;
     /// 0: call program() for each draw.
     virtual std::uint64_t program_key(ecs::World& /*world*/, ecs::Entity /*entity*/, ProbeSlot /*slot*/) const {
+        return 0;
+    }
+    /// Entities of equal keys, programs, meshes and StandardMaterials are drawn at once, after bind() for one of them:
+    /// the key must tell what else bind() reads. 0: each is bound and drawn by itself.
+    virtual std::uint64_t binding_key(ecs::World& /*world*/, ecs::Entity /*entity*/, ProbeSlot /*slot*/) const {
         return 0;
     }
     /// A second program, with which an owned entity that passes light is drawn again, over itself; nullopt: none.

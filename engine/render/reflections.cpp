@@ -263,6 +263,7 @@ Renderer::Frame Renderer::surroundings(ecs::World& world, const Frame& frame, ec
     around.aspect = 1.0F;
     around.into_halves = true;
     around.blended.clear();
+    around.casters.clear();
     std::erase_if(around.list.draws, [&](const Draw& draw) {
         const bool right_part = draw.columns != nullptr && draw.columns->begin > 0.0F;
         return draw.reflects == group || (draw.features & feature::kAlphaBlend) != 0 || right_part ||
@@ -312,12 +313,10 @@ void Renderer::draw_surroundings(ecs::World& world, Frame& around, ObjectReflect
         const scene::Camera camera = reflection.camera(face);
         around.camera = &camera;
         around.view_projection = camera.projection(1.0F) * camera.view();
-        around.used.clear();
         around.opaque.clear();
         const Frustum frustum(around.view_projection);
         for (Draw& draw : around.list.draws) {
             if (!frustum.may_see(draw.bounds)) continue;
-            around.used.push_back(&draw);
             around.opaque.push_back(&draw);
         }
         report_.reflections_drawn += static_cast<int>(around.opaque.size());
@@ -328,7 +327,7 @@ void Renderer::draw_surroundings(ecs::World& world, Frame& around, ObjectReflect
         picture.bind();
         picture.clear(glm::vec4(0.0F));
         picture.clear_depth();
-        draw_pass(world, around, around.opaque);
+        draw_pass(world, around, around.opaque_batches);
         reflection.store(programs_, object_reflections_->triangle, picture, face);
     }
     std::swap(frame_data_, reflection.frame_data);

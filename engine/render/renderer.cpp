@@ -131,13 +131,13 @@ void Renderer::render(ecs::World& world, const scene::Camera& camera, const gpu:
         const gpu::PassTimes::Scope scope(times_, "opaque");
         target.bind();
         target.clear_depth();
-        draw_pass(world, frame, frame.opaque, meter_ ? &*meter_ : nullptr);
+        draw_pass(world, frame, frame.opaque_batches, meter_ ? &*meter_ : nullptr);
     }
     draw_sky(frame);
     if (!frame.blended.empty()) {
         const gpu::PassTimes::Scope scope(times_, "blend");
         target.bind();
-        draw_pass(world, frame, frame.blended, meter_ ? &*meter_ : nullptr);
+        draw_pass(world, frame, frame.blended_batches, meter_ ? &*meter_ : nullptr);
     }
     report_.programs = static_cast<int>(programs_.size());
     if (times_ != nullptr) report_.passes = times_->latest();
@@ -207,17 +207,27 @@ void Renderer::select_draws(ecs::World& world, Frame& frame) {
             draw.features = without_light(draw.features);
             draw.light = {};
         }
+        const DrawControl* control = draw.type != nullptr ? draw.type->draw_control() : nullptr;
+        if (control != nullptr) draw.repeated = 0;  // each is measured by itself
+        const auto for_each_slot = [&](const auto& use) {
+            use(ProbeSlot::First, draw.first);
+            if (draw.light.has_second()) use(ProbeSlot::Second, draw.second);
+        };
+        bool instance = draw.repeated != 0;
+        if (instance && draw.type != nullptr)
+            for_each_slot([&](ProbeSlot slot, Draw::Lit& lit) {
+                lit.binding = draw.type->binding_key(world, draw.entity, slot);
+                instance = instance && lit.binding != 0;
+            });
+        if (instance) draw.features |= feature::kInstanced;
         // Also for entities that are not in the picture yet, so that no later frame waits for the compiler.
-        for (const ProbeSlot slot : {ProbeSlot::First, ProbeSlot::Second}) {
-            if (slot == ProbeSlot::Second && !draw.light.has_second()) continue;
-            Draw::Lit& lit = slot == ProbeSlot::First ? draw.first : draw.second;
+        for_each_slot([&](ProbeSlot slot, Draw::Lit& lit) {
             if (draw.type != nullptr) lit.key = draw.type->program_key(world, draw.entity, slot);
             lit.program = &program_of(world, draw, slot);
             lit.overlay_program = overlay_program_of(world, draw, slot);
-            const DrawControl* control = draw.type != nullptr ? draw.type->draw_control() : nullptr;
             if (control != nullptr) lit.kind = control->kind(world, draw.entity, slot);
             compile_later_programs(world, draw, slot);
-        }
+        });
         if (frame.occlusion && (draw.features & feature::kAlphaBlend) == 0)
             draw.depth_program = &surface_program(kShadowShader, of_shadow(draw.features) | feature::kFromEye);
         if (!draw.in_picture) {
@@ -230,7 +240,6 @@ void Renderer::select_draws(ecs::World& world, Frame& frame) {
         draw.distance2 = glm::dot(from_eye, from_eye);
         const glm::vec3 half = 0.5F * (draw.bounds.maximum - draw.bounds.minimum);
         frame.farthest = std::max(frame.farthest, glm::dot(from_eye, forward) + glm::dot(half, glm::abs(forward)));
-        frame.used.push_back(&draw);
         const bool blends = (draw.features & feature::kAlphaBlend) != 0;
         (blends ? frame.blended : frame.opaque).push_back(&draw);
     }
@@ -251,7 +260,6 @@ void Renderer::select_casters(Frame& frame) {
         draw.shadow_program = &surface_program(kShadowShader, of_shadow(draw.features));
         if (!frame.shadow.may_see(draw.bounds)) continue;
         frame.casters.push_back(&draw);
-        if (draw.first.program == nullptr) frame.used.push_back(&draw);
     }
 }
 
@@ -282,8 +290,28 @@ FrameBlock Renderer::frame_block(const Frame& frame, std::size_t index) const {
     return block;
 }
 
-void Renderer::upload(Frame& frame) {
+/// Appends what the shaders read of each batch.
+void Renderer::stage(std::vector<Batch>& batches) {
     const glm::mat3 to_working(rec709_to_working_);
+    std::vector<Placement> placements;
+    for (Batch& batch : batches) {
+        const Draw& draw = batch.front();
+        const ObjectBlock block = object_block(draw, to_working, 1.0F - draw.light.second_part);
+        batch.first_block = append(staging_, &block);
+        if (draw.light.has_second()) {
+            const ObjectBlock second = object_block(draw, to_working, draw.light.second_part);
+            batch.second_block = append(staging_, &second);
+        }
+        if (!draw.is_instance()) continue;
+        batch.placements = placements.size() * sizeof(Placement);
+        for (const Draw* instance : batch.draws) placements.push_back(placement(*instance));
+    }
+    if (placements.empty()) return;
+    const std::size_t begin = append(staging_, placements.data(), placements.size());
+    for (Batch& batch : batches) batch.placements += begin;
+}
+
+void Renderer::upload(Frame& frame) {
     staging_.clear();
     frame.frame_offsets.assign(frame_probes_.size(), 0);
     for (std::size_t i = 0; i < frame_probes_.size(); ++i) {
@@ -292,13 +320,10 @@ void Renderer::upload(Frame& frame) {
         frame.frame_offsets[i] = append(staging_, &block);
     }
     frame.light_offset = append(staging_, &lights_.block);
-    for (Draw* draw : frame.used) {
-        const ObjectBlock block = object_block(*draw, to_working, 1.0F - draw->light.second_part);
-        draw->first.block_offset = append(staging_, &block);
-        if (!draw->light.has_second()) continue;
-        const ObjectBlock second = object_block(*draw, to_working, draw->light.second_part);
-        draw->second.block_offset = append(staging_, &second);
-    }
+    frame.opaque_batches = lit_batches(frame.opaque);
+    frame.blended_batches = lit_batches(frame.blended);
+    frame.caster_batches = shadow_batches(frame.casters);
+    for (auto* batches : {&frame.opaque_batches, &frame.blended_batches, &frame.caster_batches}) stage(*batches);
     if (!frame.list.joints.empty()) {
         gpu::require_vertex_storage({.what = "skinned meshes",
                                      .bytes = frame.list.joints.size() * sizeof(glm::mat4),
@@ -331,17 +356,26 @@ void Renderer::draw_shadow_map(Frame& frame) {
     shadow_map_->bind();
     shadow_map_->clear_depth();
     gpu::apply({.cull = gpu::Cull::None, .slope_bias = kShadowSlopeBias});
-    for (const Draw* draw : frame.casters) draw_outline(*draw, *draw->shadow_program);
+    for (const Batch& batch : frame.caster_batches) draw_outline(batch, *batch.front().shadow_program);
     report_.shadow_drawn = static_cast<int>(frame.casters.size());
     shadow_map_->depth().bind(kShadowUnit);
 }
 
-void Renderer::draw_outline(const Draw& draw, const gpu::Program& program) const {
-    frame_data_.bind_uniform(kObjectBinding, draw.first.block_offset, sizeof(ObjectBlock));
+void Renderer::draw_outline(const Batch& batch, const gpu::Program& program) const {
+    const Draw& draw = batch.front();
+    frame_data_.bind_uniform(kObjectBinding, batch.first_block, sizeof(ObjectBlock));
     program.use();
     if ((of_shadow(draw.features) & feature::kBaseColourMap) != 0)
         draw.material->base_colour_texture.texture->bind(kFirstMapUnit);
-    draw.mesh->draw();
+    draw_mesh(batch);
+}
+
+void Renderer::draw_mesh(const Batch& batch) const {
+    const GpuMesh& mesh = *batch.front().mesh;
+    if (batch.front().is_instance())
+        mesh.draw_instances(frame_data_, batch.placements, static_cast<int>(batch.draws.size()));
+    else
+        mesh.draw();
 }
 
 void Renderer::draw_occlusion(const Frame& frame) {
@@ -349,11 +383,11 @@ void Renderer::draw_occlusion(const Frame& frame) {
     const gpu::PassTimes::Scope scope(times_, "occlusion");
     if (!occlusion_) occlusion_.emplace();
     const glm::ivec2 depth_size = occlusion_->begin(frame.size).size();
-    for (const Draw* draw : frame.opaque) {
-        const auto state = state_of(*draw, depth_size);
+    for (const Batch& batch : frame.opaque_batches) {
+        const auto state = state_of(batch.front(), depth_size);
         if (!state) continue;
         gpu::apply(*state);
-        draw_outline(*draw, *draw->depth_program);
+        draw_outline(batch, *batch.front().depth_program);
     }
     occlusion_->draw(programs_, *frame.camera, frame.aspect, lights_.shadow_light, *effects_.ambient_occlusion);
     occlusion_->visibility().bind(kVisibilityUnit);
@@ -364,33 +398,34 @@ void Renderer::bind_surface(const Draw& draw) const {
         if ((draw.features & map.bit) != 0) (draw.material->*map.texture).texture->bind(map.unit);
 }
 
-void Renderer::draw_pass(ecs::World& world, const Frame& frame, const std::vector<const Draw*>& draws,
+void Renderer::draw_pass(ecs::World& world, const Frame& frame, const std::vector<Batch>& batches,
                          gpu::DrawMeter* meter) {
-    for (const Draw* draw : draws) {
-        const auto state = state_of(*draw, frame.size);
+    for (const Batch& batch : batches) {
+        const auto state = state_of(batch.front(), frame.size);
         if (!state) continue;
         gpu::apply(*state);
-        draw_lit(world, frame, *draw, ProbeSlot::First, meter);
-        if (!draw->light.has_second()) continue;
+        draw_lit(world, frame, batch, ProbeSlot::First, meter);
+        if (!batch.front().light.has_second()) continue;
         gpu::apply(adding(*state));
-        draw_lit(world, frame, *draw, ProbeSlot::Second, meter);
+        draw_lit(world, frame, batch, ProbeSlot::Second, meter);
     }
     if (meter != nullptr) meter->end_run();
 }
 
-void Renderer::draw_lit(ecs::World& world, const Frame& frame, const Draw& draw, ProbeSlot slot,
+void Renderer::draw_lit(ecs::World& world, const Frame& frame, const Batch& batch, ProbeSlot slot,
                         gpu::DrawMeter* meter) const {
+    const Draw& draw = batch.front();
     const bool second = slot == ProbeSlot::Second;
     const Draw::Lit& lit = second ? draw.second : draw.first;
     if (meter != nullptr && lit.kind == 0) meter->end_run();
     const gpu::DrawMeter::Scope scope(lit.kind != 0 ? meter : nullptr, lit.kind, object_number(draw.entity));
     bind_probe(frame, second ? draw.light.second : draw.light.first);
-    frame_data_.bind_uniform(kObjectBinding, lit.block_offset, sizeof(ObjectBlock));
+    frame_data_.bind_uniform(kObjectBinding, second ? batch.second_block : batch.first_block, sizeof(ObjectBlock));
     lit.program->use();
     bind_surface(draw);
     if (draw.type != nullptr) draw.type->bind(world, draw.entity, slot, *lit.program);
     if ((draw.features & feature::kObjectReflections) != 0) draw.reflection->bind(*lit.program);
-    draw.mesh->draw();
+    draw_mesh(batch);
     if (lit.overlay_program == nullptr) return;
     lit.overlay_program->use();
     draw.type->bind_overlay(world, draw.entity, slot, *lit.overlay_program);
@@ -427,8 +462,9 @@ const gpu::Program* Renderer::overlay_program_of(ecs::World& world, const Draw& 
 
 void Renderer::compile_later_programs(ecs::World& world, const Draw& draw, ProbeSlot slot) {
     if (draw.type == nullptr) return;
+    const SurfaceFeatures features = draw.features | (draw.repeated != 0 ? feature::kInstanced : 0);
     for (gpu::ProgramDesc& desc : draw.type->later_programs(world, draw.entity, slot)) {
-        add_defines(draw.features, desc);
+        add_defines(features, desc);
         programs_.get(desc);
     }
 }

@@ -106,10 +106,12 @@ class Renderer {
         bool occlusion = false;
         glm::mat4 view_projection{1.0F};
         DrawList list;
-        std::vector<Draw*> used;  ///< those that need an ObjectBlock
         std::vector<const Draw*> opaque;
         std::vector<const Draw*> blended;
         std::vector<const Draw*> casters;
+        std::vector<Batch> opaque_batches;
+        std::vector<Batch> blended_batches;
+        std::vector<Batch> caster_batches;
         ShadowView shadow;
         std::vector<bool> lit;                   ///< by probe: whether it lights a draw
         std::vector<std::size_t> frame_offsets;  ///< by probe: of its FrameBlock in frame_data_, bytes
@@ -128,6 +130,7 @@ class Renderer {
     void select_casters(Frame& frame);
     FrameBlock frame_block(const Frame& frame, std::size_t probe) const;
     void upload(Frame& frame);
+    void stage(std::vector<Batch>& batches);
     void bind_frame(const Frame& frame) const;
     void bind_probe(const Frame& frame, std::size_t probe) const;
     void draw_shadow_map(Frame& frame);
@@ -137,11 +140,13 @@ class Renderer {
     Frame surroundings(ecs::World& world, const Frame& frame, ecs::Entity group);
     void update_staleness(const Frame& around, ObjectReflection& reflection) const;
     void draw_surroundings(ecs::World& world, Frame& around, ObjectReflection& reflection);
-    void draw_outline(const Draw& draw, const gpu::Program& program) const;
+    void draw_outline(const Batch& batch, const gpu::Program& program) const;
+    void draw_mesh(const Batch& batch) const;
     /// `meter`: of the draws of types that have a DrawControl; null: they are not measured.
-    void draw_pass(ecs::World& world, const Frame& frame, const std::vector<const Draw*>& draws,
+    void draw_pass(ecs::World& world, const Frame& frame, const std::vector<Batch>& batches,
                    gpu::DrawMeter* meter = nullptr);
-    void draw_lit(ecs::World& world, const Frame& frame, const Draw& draw, ProbeSlot slot, gpu::DrawMeter* meter) const;
+    void draw_lit(ecs::World& world, const Frame& frame, const Batch& batch, ProbeSlot slot,
+                  gpu::DrawMeter* meter) const;
     void take_metered(ecs::World& world);
     void draw_sky(const Frame& frame);
     void bind_surface(const Draw& draw) const;
@@ -160,7 +165,7 @@ class Renderer {
     std::map<std::tuple<const MaterialType*, std::uint64_t, SurfaceFeatures>, const gpu::Program*> type_programs_;
     gpu::VertexArray no_vertices_;
     std::vector<std::byte> staging_;  ///< of frame_data_
-    gpu::StreamBuffer frame_data_;    ///< FrameBlock, LightBlock, ObjectBlocks and joint matrices
+    gpu::StreamBuffer frame_data_;    ///< FrameBlock, LightBlock, ObjectBlocks, Placements and joint matrices
     gpu::Texture brdf_table_;
     gpu::Texture lobe_nodes_;
     std::optional<gpu::Framebuffer> shadow_map_;

@@ -9,7 +9,7 @@ namespace rowland::render {
 
 namespace {
 
-constexpr std::array<std::pair<SurfaceFeatures, const char*>, 22> kSwitches = {
+constexpr std::array<std::pair<SurfaceFeatures, const char*>, 23> kSwitches = {
     {{feature::kColours, "HAS_COLOURS"},
      {feature::kSkinned, "SKINNED"},
      {feature::kTextureTransformExtension, "TEXTURE_TRANSFORM"},
@@ -31,7 +31,8 @@ constexpr std::array<std::pair<SurfaceFeatures, const char*>, 22> kSwitches = {
      {feature::kLocalProbe, "LOCAL_PROBE"},
      {feature::kLightPart, "LIGHT_PART"},
      {feature::kFromEye, "FROM_EYE"},
-     {feature::kScratches, "WEAR_SCRATCHES"}}};
+     {feature::kScratches, "WEAR_SCRATCHES"},
+     {feature::kInstanced, "INSTANCED"}}};
 
 bool is_identity(const scene::TextureTransform& transform) {
     return transform.offset == glm::vec2(0.0F) && transform.rotation == 0.0F && transform.scale == glm::vec2(1.0F);
@@ -87,7 +88,7 @@ SurfaceFeatures without_light(SurfaceFeatures features) {
 }
 
 SurfaceFeatures of_shadow(SurfaceFeatures features) {
-    if ((features & feature::kAlphaMask) == 0) return features & feature::kSkinned;
+    if ((features & feature::kAlphaMask) == 0) return features & (feature::kSkinned | feature::kInstanced);
     return keep_maps(features, feature::kBaseColourMap) &
            ~(feature::kLights | feature::kDoubleSided | feature::kUnlit | feature::kAlphaBlend | feature::kClearCoat |
              feature::kScratches);

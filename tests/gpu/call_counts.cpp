@@ -102,6 +102,7 @@ std::vector<std::shared_ptr<void>> note_calls() {
     std::vector<std::shared_ptr<void>> noted;
 #define ROWLAND_NOTE(function, ...) noted.push_back(std::make_shared<Noted<&epoxy_##function, __VA_ARGS__>>(#function))
     ROWLAND_NOTE(glDrawElements, Count<&Counts::draws>);
+    ROWLAND_NOTE(glDrawElementsInstanced, Count<&Counts::draws>);
     ROWLAND_NOTE(glDrawArraysInstanced, Count<&Counts::draws>);
     ROWLAND_NOTE(glFinish, Count<&Counts::waits>);
     ROWLAND_NOTE(glClientWaitSync, Count<&Counts::waits>);

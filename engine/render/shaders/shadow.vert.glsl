@@ -9,5 +9,5 @@
 
 void main() {
     pass_attributes();
-    gl_Position = TO_CLIP * (object_to_world * (pose() * vec4(vertex_position, 1.0)));
+    gl_Position = TO_CLIP * (to_world() * (pose() * vec4(vertex_position, 1.0)));
 }

@@ -21,9 +21,9 @@ void main() {
     tangent = linear * tangent;
     determinant_sign *= skin_determinant_sign;
 #endif
-    vec4 world = object_to_world * vec4(position, 1.0);
-    vec3 n = normalize(mat3(normal_to_world) * normal);
-    vec3 g = mat3(object_to_world) * tangent;
+    vec4 world = to_world() * vec4(position, 1.0);
+    vec3 n = normalize(normals_to_world() * normal);
+    vec3 g = mat3(to_world()) * tangent;
     g = normalize(g - n * dot(n, g));
     world_position = world.xyz;
     world_normal = n;

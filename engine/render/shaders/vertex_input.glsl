@@ -23,6 +23,16 @@ out vec2 uv1;
 layout(location = 5) in vec4 vertex_colour;
 out vec4 colour;
 #endif
+#ifdef INSTANCED
+layout(location = 8) in mat4x3 instance_to_world;
+layout(location = 12) in mat3 instance_normal_to_world;
+
+mat4 to_world() { return mat4(instance_to_world); }
+mat3 normals_to_world() { return instance_normal_to_world; }
+#else
+mat4 to_world() { return object_to_world; }
+mat3 normals_to_world() { return mat3(normal_to_world); }
+#endif
 #ifdef AMBIENT_AT_VERTICES
 out vec3 ambient_at_vertex;
 #endif

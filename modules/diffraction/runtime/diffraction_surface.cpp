@@ -184,6 +184,11 @@ std::uint64_t DiffractionSurfaceType::program_key(ecs::World& world, ecs::Entity
     return state.material->program_key(state);
 }
 
+std::uint64_t DiffractionSurfaceType::binding_key(ecs::World& world, ecs::Entity entity, render::ProbeSlot slot) const {
+    const SurfaceState& state = state_of(world, entity, slot);
+    return state.material->binding_key(state);
+}
+
 void DiffractionSurfaceType::warn_illuminant_mismatch(const std::string& baked_for, const std::string& lit_by) {
     if (baked_for == lit_by || !warned_pairs_.emplace(baked_for, lit_by).second) return;
     log_warning("a grating baked for the illuminant {} is lit by {}: it shows the colours of {}", baked_for, lit_by,

@@ -60,6 +60,7 @@ class DiffractionSurfaceType final : public render::MaterialType {
     bool owns(ecs::World& world, ecs::Entity entity) const override;
     gpu::ProgramDesc program(ecs::World& world, ecs::Entity entity, render::ProbeSlot slot) const override;
     std::uint64_t program_key(ecs::World& world, ecs::Entity entity, render::ProbeSlot slot) const override;
+    std::uint64_t binding_key(ecs::World& world, ecs::Entity entity, render::ProbeSlot slot) const override;
     std::vector<gpu::ProgramDesc> later_programs(ecs::World& world, ecs::Entity entity,
                                                  render::ProbeSlot slot) const override;
     void update(ecs::World& world, std::span<const render::FrameLight> lights,

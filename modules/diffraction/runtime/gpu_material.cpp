@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <bit>
 #include <cmath>
 #include <string>
 #include <tuple>
@@ -95,6 +96,16 @@ std::uint64_t GpuMaterial::program_key(const SurfaceState& state) const {
                            state.grooves && state.grooves->uv_set() == 1, state.grooves && state.grooves->has_gaps()})
         key = 2 * key + (bit ? 1 : 0);
     return key;
+}
+
+std::uint64_t GpuMaterial::binding_key(const SurfaceState& state) const {
+    if (!shares_tables(state)) return 0;
+    std::uint64_t key = 1;
+    for (const std::uint64_t read : {std::uint64_t{reinterpret_cast<std::uintptr_t>(state.map.shown().get())},
+                                     std::uint64_t{reinterpret_cast<std::uintptr_t>(state.grooves.get())},
+                                     std::uint64_t{std::bit_cast<std::uint32_t>(state.groove_rotation)}})
+        key = std::rotl((key ^ read) * 0x9E3779B97F4A7C15U, 29);  // Fibonacci hashing
+    return std::max<std::uint64_t>(key, 1);
 }
 
 void GpuMaterial::add_defines(const SurfaceState& state, gpu::ProgramDesc& desc) const {

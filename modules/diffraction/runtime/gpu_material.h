@@ -88,6 +88,8 @@ class GpuMaterial {
     gpu::ProgramDesc program(const SurfaceState& state) const;
     /// Key of the material and of what program() depends on in the state; not 0.
     std::uint64_t program_key(const SurfaceState& state) const;
+    /// Key of what bind() reads of the state; 0: of what one object alone has.
+    std::uint64_t binding_key(const SurfaceState& state) const;
     /// The program must be in use.
     void bind(const gpu::Program& program, const SurfaceLight& light, const SurfaceState& state) const;
 
@@ -108,6 +110,8 @@ class GpuMaterial {
     /// The representation's shader file and defines.
     virtual void describe(const SurfaceState& state, gpu::ProgramDesc& desc) const = 0;
     virtual void bind_tables(const gpu::Program& program, const SurfaceState& state) const = 0;
+    /// Whether objects with one map, or without maps, have the same tables: nothing of them is computed for each.
+    virtual bool shares_tables(const SurfaceState& /*state*/) const { return false; }
     /// What the vertex stage reads.
     struct VertexLight {
         int blocks = 1;          ///< storage buffers
