@@ -181,7 +181,7 @@ void Document::edit(const Json& edited, const Field* field) {
     editing_ = field;
 }
 
-void Document::set_boxes(std::vector<scene::ExtendedNode> boxes) {
+void Document::set_boxes(const std::vector<scene::ExtendedNode>& boxes) {
     if (boxes == boxes_) return;
     for (const scene::ExtendedNode& box : boxes)
         scene::relative_path_of_uri(name_, box.extension.at("probe"), "the light probe of " + box.name);

@@ -134,7 +134,7 @@ class Document {
     const std::vector<scene::ExtendedNode>& boxes() const { return boxes_; }
     /// Replaces them; all calls between two of finish_edit() are one step of undo. Throws Error (input) if a probe is
     /// not named as a file in the scene's folder, or below it.
-    void set_boxes(std::vector<scene::ExtendedNode> boxes);
+    void set_boxes(const std::vector<scene::ExtendedNode>& boxes);
 
     bool can_undo() const { return at_ > 0; }
     bool can_redo() const { return at_ < steps_.size(); }

@@ -93,7 +93,8 @@ void FoilPanel::draw(FoilStudio& studio, const FoilActions& actions, ControlMap&
         if (section != section_of_foil(field)) {
             section = section_of_foil(field);
             const std::string title = section == "Foil" ? "Foil: " + shown_foil_type(studio.recipe().type()) : section;
-            open = ImGui::CollapsingHeader((title + "###" + section).c_str(), ImGuiTreeNodeFlags_DefaultOpen);
+            open =
+                ImGui::CollapsingHeader(fmt::format("{}###{}", title, section).c_str(), ImGuiTreeNodeFlags_DefaultOpen);
             controls.mark("section " + section);
         }
         if (open) draw_field(studio, field, actions, controls);

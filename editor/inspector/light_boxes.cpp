@@ -149,7 +149,7 @@ void LightBoxPanel::draw_list(Document& document, const SceneObject& scene, Cont
         std::vector<Box> boxes = document.boxes();
         edit(boxes);
         document.finish_edit();
-        document.set_boxes(std::move(boxes));
+        document.set_boxes(boxes);
         document.finish_edit();
     };
     for (std::size_t i = 0; i < document.boxes().size(); ++i) {
@@ -229,7 +229,7 @@ void LightBoxPanel::draw_probe(Document& document, ControlMap& controls) {
         boxes[chosen_].extension["probe"] = *typed_;
         try {
             document.finish_edit();
-            document.set_boxes(std::move(boxes));
+            document.set_boxes(boxes);
             document.finish_edit();
         } catch (const Error& error) {
             refusal_ = error.what();

@@ -69,7 +69,7 @@ struct Draw {
 /// From so many draws of a mesh and a material on, a program of their own is worth it.
 inline constexpr int kLeastInstances = 8;
 
-/// Draws that differ in nothing but their place, as one draw of instances, or any other draw.
+/// Draws that differ in nothing but their transform, as one draw of instances, or any other draw.
 struct Batch {
     std::span<const Draw* const> draws;  ///< one, or instances
     /// Offsets in the renderer's buffer, bytes: of the ObjectBlock for each of the probes, and of instances'

@@ -24,7 +24,7 @@ class GpuMesh {
     explicit GpuMesh(const scene::Mesh& mesh);
 
     void draw() const { vertices_.draw_indexed(index_count_); }
-    /// Draws it at so many places, which lie in the buffer from `offset` on, with a program that has INSTANCED.
+    /// Draws it for so many Placements, which lie in the buffer from `offset` on, with a program that has INSTANCED.
     void draw_instances(const gpu::StreamBuffer& placements, std::size_t offset, int count) const;
 
     /// In the mesh's own space.

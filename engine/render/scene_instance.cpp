@@ -116,7 +116,8 @@ class Builder {
         for (const auto& [name, object] : material.extensions)
             for (const auto& type : renderer_.material_types())
                 if (type->gltf_extension() == name)
-                    type->attach(world_, entity, {object, material, file_, pointer + "/" + name}, textures_);
+                    type->attach(world_, entity, {object, material, file_, fmt::format("{}/{}", pointer, name)},
+                                 textures_);
         warn_unaccompanied_extensions(material, pointer);
         owner_of(world_, entity, renderer_.material_types(), file_, pointer);
     }

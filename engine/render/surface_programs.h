@@ -49,7 +49,7 @@ inline constexpr SurfaceFeatures kObjectReflections = 1U << 31U;
 inline constexpr SurfaceFeatures kScratches = 1ULL << 32U;   ///< in the map of wear
 inline constexpr SurfaceFeatures kLocalProbe = 1ULL << 33U;  ///< lit by a box's probe, or by two probes
 inline constexpr SurfaceFeatures kLightPart = 1ULL << 34U;   ///< a draw may give only a part of the light
-inline constexpr SurfaceFeatures kInstanced = 1ULL << 35U;   ///< its place is an attribute of the instance
+inline constexpr SurfaceFeatures kInstanced = 1ULL << 35U;   ///< its matrices are attributes of the instance
 inline constexpr SurfaceFeatures kEffects =
     kAmbientOcclusion | kSoftShadows | kLocalReflections | kObjectReflections | kRoughReflections;
 inline constexpr SurfaceFeatures kLights = kDirectionalLights | kSeveralDirectionalLights | kPunctualLights | kShadows |

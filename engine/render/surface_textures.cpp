@@ -67,7 +67,7 @@ void upload_normals(const image::ByteImage& image, gpu::Texture& texture) {
             const float length = std::max(glm::length(mean), 1e-3F);
             const float variance = std::max(1.0F / (length * length) - 1.0F, 0.0F);
             const glm::vec4 texel(0.5F + 0.5F / length * mean, 0.5F * std::min(std::sqrt(variance), 2.0F));
-            for (int i = 0; i < 4; ++i) texels.push_back(static_cast<std::uint8_t>(255.0F * texel[i] + 0.5F));
+            for (int i = 0; i < 4; ++i) texels.push_back(static_cast<std::uint8_t>(std::lround(255.0F * texel[i])));
         }
         texture.upload(std::span<const std::uint8_t>(texels), {.level = level});
     }

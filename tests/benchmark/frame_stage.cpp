@@ -186,6 +186,7 @@ FrameScene::FrameScene(FrameVariant variant, FrameStage& stage, bool software)
     if (variant_.shader == Shader::Film) add_film();
     if (variant_.worn) add_wear();
     if (variant_.in_box || variant_.between_boxes) add_box();
+    if (variant_.instance) add_instances();
     if (variant_.lighting == Lighting::LampsInScene) {
         std::vector<render::DistantLight> distant;
         for (const scene::DirectionalLight& lamp : lamps(variant_.lamps)) {
@@ -201,6 +202,17 @@ FrameScene::FrameScene(FrameVariant variant, FrameStage& stage, bool software)
     }
     if (variant_.effect == Effect::LocalReflection) add_reflected_plane();
     scene::update_world_matrices(world_);
+}
+
+void FrameScene::add_instances() {
+    for (int i = 1; i < render::kLeastInstances; ++i) {
+        const ecs::Entity entity = world_.create();
+        world_.add(entity, scene::Transform{.translation = {100.0F * static_cast<float>(i), 0.0F, 0.0F}});
+        world_.add(entity, render::MeshInstance(world_.get<render::MeshInstance>(disc_)));
+        world_.add(entity, render::StandardMaterial(world_.get<render::StandardMaterial>(disc_)));
+        if (const auto* surface = world_.find<diffraction::DiffractionSurface>(disc_))
+            world_.add(entity, diffraction::DiffractionSurface(*surface));
+    }
 }
 
 void FrameScene::add_box() {

@@ -72,6 +72,7 @@ class FrameScene {
 
  private:
     void add_box();
+    void add_instances();
     void add_film();
     void add_wear();
     void add_reflected_plane();

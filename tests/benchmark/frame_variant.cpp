@@ -69,6 +69,7 @@ void add_plain(std::vector<FrameVariant>& variants) {
     variants.push_back(with(plain, "/worn", &FrameVariant::worn));
     variants.push_back(with(plain, "/in-box", &FrameVariant::in_box));
     variants.push_back(with(plain, "/between-boxes", &FrameVariant::between_boxes));
+    variants.push_back(with(plain, "/instance", &FrameVariant::instance));
     variants.push_back(with_effect(shadow, "/ambient-occlusion", Effect::AmbientOcclusion));
     FrameVariant film = engine_surface("film", Shader::Film);
     film.material = {{"film", {{"ior", 1.33}, {"thickness_nm", 400}}}, {"base", {{"ior", 1.5}}}, {"roughness", 0.3}};
@@ -154,6 +155,8 @@ std::vector<FrameVariant> all_variants() {
             variants.push_back(with(grating(drawn, "", drawn.name), "/in-box", &FrameVariant::in_box));
             variants.push_back(with(grating(drawn, "", drawn.name), "/between-boxes", &FrameVariant::between_boxes));
         }
+        if (drawn.name == "planar")
+            variants.push_back(with(grating(drawn, "", drawn.name), "/instance", &FrameVariant::instance));
         if (drawn.name == "arc" || drawn.name == "planar" || drawn.name == "direct")
             variants.push_back(with(grating(drawn, "", "plain"), "/shadow", &FrameVariant::shadow));
         if (drawn.name == "planar/pits") {

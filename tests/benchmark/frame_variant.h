@@ -49,6 +49,7 @@ struct FrameVariant {
     bool worn = false;           ///< scratches, fingerprints and dust
     bool in_box = false;         ///< lit by the same probe, as that of a box around the disc
     bool between_boxes = false;  ///< lit by that and by the renderer's probe, half and half
+    bool instance = false;       ///< the disc is drawn as an instance; the others lie beside the picture
 };
 
 /// All frames that are timed, each baseline before the variants that are compared with it.

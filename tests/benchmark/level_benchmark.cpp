@@ -88,8 +88,10 @@ class Level {
         const glm::quat facing = glm::angleAxis(1.2F, glm::vec3(1.0F, 0.0F, 0.0F));
         for (int i = 0; i < count; ++i) {
             const ecs::Entity entity = world_.create();
-            const glm::vec3 at(2.0F * static_cast<float>(i % columns) - static_cast<float>(columns - 1),
-                               2.0F * static_cast<float>(i / columns) - static_cast<float>(rows - 1), 0.0F);
+            const int column = i % columns;
+            const int row = i / columns;
+            const glm::vec3 at(static_cast<float>(2 * column - (columns - 1)), static_cast<float>(2 * row - (rows - 1)),
+                               0.0F);
             world_.add(entity, scene::Transform{.translation = at, .rotation = facing});
             world_.add(entity, render::MeshInstance(i % 2 == 0 ? disc : sphere));
             world_.add(entity,

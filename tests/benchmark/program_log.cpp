@@ -96,6 +96,7 @@ struct ProgramLog::Replaced {
     test::ReplacedFunction<&epoxy_glLinkProgram> of_link_program{"glLinkProgram", link_program};
     test::ReplacedFunction<&epoxy_glDrawArraysInstanced> of_draw_arrays{"glDrawArraysInstanced", draw_arrays};
     test::ReplacedFunction<&epoxy_glDrawElements> of_draw_elements{"glDrawElements", draw_elements};
+    test::ReplacedFunction<&epoxy_glDrawElementsInstanced> of_draw_instances{"glDrawElementsInstanced", draw_instances};
 };
 
 ProgramLog::ProgramLog() {
@@ -132,6 +133,15 @@ void ProgramLog::draw_arrays(GLenum mode, GLint first, GLsizei count, GLsizei in
 
 void ProgramLog::draw_elements(GLenum mode, GLsizei count, GLenum type, const void* indices) {
     active_log->replaced_->of_draw_elements.driver(mode, count, type, indices);
+    note_mesh();
+}
+
+void ProgramLog::draw_instances(GLenum mode, GLsizei count, GLenum type, const void* indices, GLsizei instances) {
+    active_log->replaced_->of_draw_instances.driver(mode, count, type, indices, instances);
+    note_mesh();
+}
+
+void ProgramLog::note_mesh() {
     if (const auto program = active_log->current())
         active_log->last_mesh_ = MeshDraw{*program, loop_lengths(current_program())};
 }

@@ -52,6 +52,8 @@ class ProgramLog {
     static void link_program(GLuint program);
     static void draw_arrays(GLenum mode, GLint first, GLsizei count, GLsizei instances);
     static void draw_elements(GLenum mode, GLsizei count, GLenum type, const void* indices);
+    static void draw_instances(GLenum mode, GLsizei count, GLenum type, const void* indices, GLsizei instances);
+    static void note_mesh();
 
     void record(GLuint program);
     /// In programs(); none if it was linked before the log began.

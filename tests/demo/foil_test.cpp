@@ -262,9 +262,10 @@ template <typename Brightness>
 std::vector<std::byte> picture_of(const Brightness& brightness) {
     constexpr int kSide = 64;
     std::vector<std::uint8_t> rgb;
-    for (int i = 0; i < kSide * kSide; ++i)
-        rgb.insert(rgb.end(), 3,
-                   static_cast<std::uint8_t>(255.0 * brightness((i % kSide + 0.5) / kSide, (i / kSide + 0.5) / kSide)));
+    for (int row = 0; row < kSide; ++row)
+        for (int column = 0; column < kSide; ++column)
+            rgb.insert(rgb.end(), 3,
+                       static_cast<std::uint8_t>(255.0 * brightness((column + 0.5) / kSide, (row + 0.5) / kSide)));
     return image::encode_png(kSide, kSide, 3, rgb);
 }
 

@@ -82,14 +82,15 @@ void KernelCells::correlate(std::span<const Four> light, std::span<Four> xyz) co
     static_assert(kFours % kSums == 0);
     for (int view = 0; view < views_; ++view) {
         const Range reached = range(view);
-        for (std::size_t i = 0; i < 3 * kFours; i += kSums) {
+        for (std::size_t i = 0; i < std::size_t{3} * kFours; i += kSums) {
             const float* weight = weights(view, reached.begin) + i / kFours;
             const Four* from = light.data() + static_cast<std::size_t>(reached.begin) * 3 * kFours + i % kFours;
             std::array<Four, kSums> sum{};
             for (int cell = reached.begin; cell < reached.end;
                  ++cell, weight += kWeightFloats, from += std::ptrdiff_t{3} * kFours)
                 for (std::size_t k = 0; k < kSums; ++k)
-                    sum[k] += weight[0] * from[k] + weight[4] * from[kFours + k] + weight[8] * from[2 * kFours + k];
+                    sum[k] += weight[0] * from[k] + weight[4] * from[kFours + k] +
+                              weight[8] * from[std::size_t{2} * kFours + k];
             std::copy(sum.begin(), sum.end(),
                       xyz.begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(view) * 3 * kFours + i));
         }
@@ -223,7 +224,8 @@ BlurredKernel blur(const KernelTable& kernel, double pitch_nm, double widest_nm,
             }
             return sum;
         };
-        const double coordinate = 2.0 * static_cast<double>(row / levels) / (kBlurredViews - 1) - 1.0;
+        const std::size_t view = row / levels;
+        const double coordinate = 2.0 * static_cast<double>(view) / (kBlurredViews - 1) - 1.0;
         for (std::size_t i = 0; i < size; ++i) {
             glm::mat3& value = blurred.values[row * size + i];
             if (blurred.views == 1) {

@@ -38,7 +38,7 @@ constexpr float kPrint = 0.6F;       ///< of paper and ink
 /// Light of all orders that have a path difference, per order 1/m, in linear Rec.709.
 const std::vector<glm::vec3>& colours_of_paths() {
     static const std::vector<glm::vec3> colours = [] {
-        std::vector<glm::vec3> made(std::size_t{1} + kHighestOrder * colour::kVisibleMax / std::size_t{4});
+        std::vector<glm::vec3> made(std::size_t{1} + std::size_t{kHighestOrder} * colour::kVisibleMax / 4);
         for (std::size_t i = 0; i < made.size(); ++i)
             for (int order = 1; order <= kHighestOrder; ++order) {
                 const double wavelength_nm = static_cast<double>(i) * kPathStep_nm / order;
@@ -90,9 +90,11 @@ Thumbnail::Thumbnail(Recipe recipe, NamedPictures pictures, const std::string& f
     const double longer_over_height = std::max(recipe.card.width_mm / recipe.card.height_mm, 1.0);
     recipe.texture_px = static_cast<int>(std::lround(kTexelsPerPixel * height * longer_over_height));
     // The print shall come as texels, not as the artwork's file.
-    for (auto& [name, picture] : pictures)
+    for (auto& named : pictures) {
+        auto& picture = named.second;
         if (!picture.bytes.empty())
             picture = {picture.file, {}, image::decode_byte_image(std::exchange(picture.bytes, {}), picture.file)};
+    }
     const CardTexels card = card_texels(recipe, pictures, file);
     const FoilGrating grating = foil_grating(recipe.foil);
     width_ = card.area.width_px / kTexelsPerPixel;
@@ -139,7 +141,7 @@ void Thumbnail::draw(const glm::mat3& tilt, std::span<std::uint8_t> rgba) const 
             if (off > kDark) continue;
             const float lobe = lobe_ == 0.0F ? kSpread : std::exp(-0.5F * off);
             const float path_nm = texel.pitch_nm * std::abs(glm::dot(texel.grooves, sum));
-            const auto at = static_cast<std::size_t>(path_nm / kPathStep_nm + 0.5F);
+            const auto at = static_cast<std::size_t>(std::lround(path_nm / kPathStep_nm));
             if (at < colours.size()) light += lobe * colours[at];
         }
         return texel.print + texel.tint * light;

@@ -99,7 +99,7 @@ std::uint64_t GpuMaterial::program_key(const SurfaceState& state) const {
 }
 
 std::uint64_t GpuMaterial::binding_key(const SurfaceState& state) const {
-    if (!shares_tables(state)) return 0;
+    if (!has_common_tables(state)) return 0;
     std::uint64_t key = 1;
     for (const std::uint64_t read : {std::uint64_t{reinterpret_cast<std::uintptr_t>(state.map.shown().get())},
                                      std::uint64_t{reinterpret_cast<std::uintptr_t>(state.grooves.get())},

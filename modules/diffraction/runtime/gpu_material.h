@@ -111,7 +111,7 @@ class GpuMaterial {
     virtual void describe(const SurfaceState& state, gpu::ProgramDesc& desc) const = 0;
     virtual void bind_tables(const gpu::Program& program, const SurfaceState& state) const = 0;
     /// Whether objects with one map, or without maps, have the same tables: nothing of them is computed for each.
-    virtual bool shares_tables(const SurfaceState& /*state*/) const { return false; }
+    virtual bool has_common_tables(const SurfaceState& /*state*/) const { return false; }
     /// What the vertex stage reads.
     struct VertexLight {
         int blocks = 1;          ///< storage buffers

@@ -80,7 +80,7 @@ class GpuDirect final : public GpuMaterial {
  private:
     void describe(const SurfaceState&, gpu::ProgramDesc&) const override {}
     void bind_tables(const gpu::Program&, const SurfaceState&) const override {}
-    bool shares_tables(const SurfaceState&) const override { return true; }
+    bool has_common_tables(const SurfaceState&) const override { return true; }
 };
 
 /// One map for all flat objects with one normal: planar_map.glsl. It follows the normal and the probe; a rotation about
@@ -96,7 +96,7 @@ class GpuPlanar final : public GpuMaterial {
  private:
     void describe(const SurfaceState& state, gpu::ProgramDesc& desc) const override;
     void bind_tables(const gpu::Program& program, const SurfaceState& state) const override;
-    bool shares_tables(const SurfaceState& state) const override { return !state.without_map; }
+    bool has_common_tables(const SurfaceState& state) const override { return !state.without_map; }
 
     MapInput map_input(const SurfaceObject& object, const SurfaceLight& light, const SurfaceState& state) const;
 
@@ -119,7 +119,7 @@ class GpuCircle final : public GpuMaterial {
  private:
     void describe(const SurfaceState& state, gpu::ProgramDesc& desc) const override;
     void bind_tables(const gpu::Program& program, const SurfaceState& state) const override;
-    bool shares_tables(const SurfaceState&) const override { return true; }
+    bool has_common_tables(const SurfaceState&) const override { return true; }
 
     CircleMapSize size_;
     int charts_;
@@ -138,7 +138,7 @@ class GpuStreak final : public GpuMaterial {
  private:
     void describe(const SurfaceState& state, gpu::ProgramDesc& desc) const override;
     void bind_tables(const gpu::Program& program, const SurfaceState& state) const override;
-    bool shares_tables(const SurfaceState&) const override { return !incoherent_; }
+    bool has_common_tables(const SurfaceState&) const override { return !incoherent_; }
 
     gpu::Buffer segments_;
     float reach_;         ///< Streak::reach()

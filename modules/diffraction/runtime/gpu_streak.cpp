@@ -18,7 +18,7 @@ struct ShaderSegment {
     /// For each node the columns of its weight, for red, green and blue light, in the working space.
     std::array<glm::vec4, std::size_t{3} * kSegmentNodes> weights;
 };
-static_assert(sizeof(ShaderSegment) == 16 * (1 + 3 * kSegmentNodes));
+static_assert(sizeof(ShaderSegment) == 16 * (1 + std::size_t{3} * kSegmentNodes));
 
 ShaderSegment shader_segment(const StreakSegment& segment, double pitch_nm, const glm::dmat3& xyz_to_working) {
     const auto pitch = static_cast<float>(pitch_nm);

@@ -165,7 +165,7 @@ void FilmSurfaceType::update(ecs::World& world, std::span<const render::FrameLig
         if (!owns(world, lit.entity)) continue;
         const std::string& baked_for = world.get<FilmSurface>(lit.entity).film->illuminant();
         const std::string& lit_by = lights[lit.light.first].probe->illuminant.name;
-        if (baked_for == lit_by || !warned_pairs_.insert(baked_for + " " + lit_by).second) continue;
+        if (baked_for == lit_by || !warned_pairs_.emplace(baked_for, lit_by).second) continue;
         log_warning("a film baked for the illuminant {} is lit by {}: it shows the colours of {}", baked_for, lit_by,
                     baked_for);
     }

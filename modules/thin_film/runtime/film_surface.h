@@ -7,6 +7,7 @@
 #include <set>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "engine/gpu/program.h"
@@ -92,7 +93,7 @@ class FilmSurfaceType final : public render::MaterialType {
 
     glm::dmat3 xyz_to_working_;
     std::map<std::string, std::weak_ptr<const GpuFilm>> uploaded_;  ///< by the hash of the tables
-    std::set<std::string> warned_pairs_;                            ///< illuminants baked for and lit by
+    std::set<std::pair<std::string, std::string>> warned_pairs_;    ///< illuminants baked for, lit by
 };
 
 }  // namespace rowland::thin_film

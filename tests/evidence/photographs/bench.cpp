@@ -31,7 +31,7 @@ const glm::vec3 kOutOfSight(0.0F, -1000.0F, 0.0F);
 const glm::dvec3 kUp(0.0, 1.0, 0.0);
 
 lighting::LightProbe darkness() {
-    const image::Image black{.width = 16, .height = 8, .texels = std::vector<glm::vec3>(16 * 8)};
+    const image::Image black{.width = 16, .height = 8, .texels = std::vector<glm::vec3>(std::size_t{16} * 8)};
     lighting::LightProbeSettings settings;
     settings.key_lights = 0;
     return lighting::build_light_probe({black, lighting::Mapping::Equirectangular}, settings);

@@ -201,6 +201,7 @@ Json text(int pictures, int points, double largest_deg, double largest_nm) {
         "cameras at 0.227, 0.298 and 0.35 m and 38°, 29° and 23°, turned from 15° to 180° in steps of 5°. Their "
         "photographs are not ours to show; only their geometry is used. So this compares our own drawing with the "
         "grating equation, not with photographs.",
+        // NOLINTNEXTLINE(bugprone-suspicious-missing-comma): one paragraph
         "Formula: at a point of the disc light leaves where s_h + v_h = 0 along the track, which is sin α sin θ_s = "
         "sin φ sin θ_o, and order m shows the wavelength |s_g + v_g| d / m. It is solved in double precision for each "
         "radius and shares no code with the drawing.",

@@ -51,7 +51,7 @@ std::vector<float> coefficients(const std::optional<Cover>& cover, int cells, co
 
 /// The identity, in the layout of functions_of_terms().
 std::vector<float> unchanged_terms() {
-    std::vector<float> rows(kCircleTerms * kCircleTerms, 0.0F);
+    std::vector<float> rows(std::size_t{kCircleTerms} * kCircleTerms, 0.0F);
     for (std::size_t term = 0; term < kCircleTerms; ++term) rows[term * (kCircleTerms + 1)] = 1.0F;
     return rows;
 }
@@ -132,7 +132,7 @@ std::array<float, kMultiples.terms> weights_at(const Angle& t) {
 /// vectors of four images each.
 template <const Multiples& kMultiples>
 void add_moments(std::span<const ImageLight> light, const CircleFrame& frame, int cells, std::vector<Four>& moments) {
-    constexpr std::size_t kColour = 2 * kMultiples.terms;
+    constexpr std::size_t kColour = std::size_t{2} * kMultiples.terms;
     const glm::vec3 g(frame.g);
     const glm::vec3 e1(frame.e1);
     const glm::vec3 e2(frame.e2);

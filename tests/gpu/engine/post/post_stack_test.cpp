@@ -198,7 +198,7 @@ TEST_F(PostStackTest, AVignetteDoesNotChangeTheAutomaticExposure) {
 
 TEST_F(PostStackTest, TheThresholdOfGlareIsOfTheExposedPicture) {
     const glm::ivec2 size(64, 36);
-    std::vector<glm::vec4> pixels(64 * 36, glm::vec4(0.0F));
+    std::vector<glm::vec4> pixels(std::size_t{64} * 36, glm::vec4(0.0F));
     pixels[18 * 64 + 32] = glm::vec4(1.5F);
     const gpu::Texture hdr = picture(pixels, size, gpu::Format::RGBA16F);
     const gpu::Framebuffer drawn = target(size);

@@ -233,7 +233,7 @@ TEST_F(WorkingSpace, EveryRepresentationDrawsInIt) {
 /// Such maps are sharpened as light that nowhere is negative, as some spectral colours are in a working space. Beside a
 /// lamp they would have rings.
 TEST_F(WorkingSpace, MapsOfLobesAndLatticesAroundALampDrawInIt) {
-    image::Image room{.width = 64, .height = 32, .texels = {64 * 32, glm::vec3(0.1F)}};
+    image::Image room{.width = 64, .height = 32, .texels = {std::size_t{64} * 32, glm::vec3(0.1F)}};
     for (const int texel : {64 * 9 + 20, 64 * 11 + 40, 64 * 13 + 5})
         room.texels[static_cast<std::size_t>(texel)] = glm::vec3(60.0F);
     probe_ = {std::move(room), lighting::Mapping::Equirectangular};

@@ -36,8 +36,8 @@ class Instances : public test::GlTest {
         for (int i = 0; i < 12; ++i) {
             const ecs::Entity entity = objects_.emplace_back(world_.create());
             const auto row = static_cast<float>(i / 3);
-            const glm::vec3 place(0.75F * static_cast<float>(i % 3) - 0.75F, 0.6F * row - 0.9F, 0.1F * row);
-            world_.add(entity, scene::Transform{.translation = place, .rotation = kFacing});
+            const glm::vec3 position(0.75F * static_cast<float>(i % 3) - 0.75F, 0.6F * row - 0.9F, 0.1F * row);
+            world_.add(entity, scene::Transform{.translation = position, .rotation = kFacing});
             world_.add(entity, render::MeshInstance(shared));
             world_.add(entity, render::StandardMaterial{.base_colour = {0.7F, 0.5F, 0.3F}, .roughness = 0.4F});
             if (material) add_surface(world_, entity, {.material = material}, true);
@@ -104,7 +104,7 @@ TEST_F(Instances, OfGratingsShareTheirMaps) {
     }
 }
 
-TEST_F(Instances, ThatDifferInMoreThanTheirPlaceAreDrawnApart) {
+TEST_F(Instances, ThatDifferInMoreThanTheirTransformAreDrawnApart) {
     const auto circle = make_gpu_material(cook(kSlitCd, kCircleQuality), glm::dmat3(1.0));
     const auto planar =
         make_gpu_material(cook(kSlitCd, R"({"representation": "planar", "map_resolution": 48})"), glm::dmat3(1.0));

@@ -38,9 +38,10 @@ class Semaphore {
 
 /// Maps of one texel; a test says when a full one may be filled.
 class MapFillingTest : public rowland::test::GlTest {
- protected:
+ public:
     ~MapFillingTest() override { full_maps_.release(1000); }
 
+ protected:
     /// A frame with one object.
     void update(double normal) {
         cache_->begin_frame();

@@ -1,5 +1,6 @@
 #include "editor/inspector/field.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <numbers>
@@ -111,7 +112,7 @@ TEST(Fields, EveryMemberOfTheSchemaHasAField) {
     EXPECT_EQ(members.size(), 6U);  // those, the grating and these
     for (const std::string of : {"base", "cover", "transmission"})
         for (const auto& [name, part] : members[of]["properties"].items())
-            EXPECT_TRUE(has_field("/" + of + "/" + name)) << name;
+            EXPECT_TRUE(has_field(fmt::format("/{}/{}", of, name))) << name;
     std::set<std::string> of_film;
     const Json film = modules::asset_types()->find("film")->schema();
     for (const Json& alternative : film["oneOf"])

@@ -30,7 +30,7 @@ TEST(WebpAnimation, HoldsItsPicturesAndTimesAndRepeats) {
         std::uint8_t* pixels = nullptr;
         int time_ms = 0;
         ASSERT_TRUE(WebPAnimDecoderGetNext(decoder.get(), &pixels, &time_ms));
-        EXPECT_NEAR(pixels[4 * 100], grey, 3);
+        EXPECT_NEAR(pixels[std::ptrdiff_t{4} * 100], grey, 3);
         EXPECT_EQ(time_ms % 100, 0);
     }
 }

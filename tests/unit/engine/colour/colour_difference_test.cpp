@@ -212,7 +212,7 @@ TEST(HdrFlip, SeesHighlightsAndWhatIsDim) {
     // A lamp's reflection a thousand times as bright as the rest; half the pixels are background.
     Pixels reference = uniform(glm::dvec3(0.1));
     for (std::size_t i = 0; i < kFlipPixels / 2; ++i) reference[i] = glm::dvec3(0.0);
-    const std::size_t lamp = kFlipPixels - 5 * kFlipWidth - 8;
+    const std::size_t lamp = kFlipPixels - std::size_t{5} * kFlipWidth - 8;
     reference[lamp] = glm::dvec3(100.0);
     Pixels dimmer_lamp = reference;
     dimmer_lamp[lamp] *= 0.5;

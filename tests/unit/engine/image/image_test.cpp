@@ -48,7 +48,7 @@ std::string old_runs(int width, int height) {
 TEST(ImageLimits, MemoryIsInProportionToTheFile) {
     EXPECT_EQ(decoded_limit(0), 400 * kMebibyte);
     EXPECT_EQ(decoded_limit(2 * kMebibyte), 400 * kMebibyte);
-    EXPECT_EQ(decoded_limit(8 * kMebibyte), 192 * 8 * kMebibyte);
+    EXPECT_EQ(decoded_limit(8 * kMebibyte), std::uint64_t{192} * 8 * kMebibyte);
     EXPECT_THAT(message_of([] { check_decoded_bytes(16384, 8192, 12 * kMaximumTexels, 801'000, "a.exr"); }),
                 AllOf(HasSubstr("a.exr: an image of 16384 x 8192 texels in 801000 bytes, which takes 1536 MiB"),
                       HasSubstr("at most 400 MiB"), kRefused));

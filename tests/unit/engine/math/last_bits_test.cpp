@@ -12,7 +12,7 @@ TEST(LastBits, WhatIsRoundingBesideTheLargestNumberIsZeroWithoutASign) {
     std::vector<double> values{-0.75, 3e-15, -3e-15, 0.25 + 1e-14, -0.0};
     drop_last_bits(values);
     EXPECT_EQ(values, (std::vector<double>{-0.75, 0.0, 0.0, 0.25, 0.0}));
-    for (const std::size_t zero : {1, 2, 4}) EXPECT_FALSE(std::signbit(values[zero]));
+    for (const std::size_t zero : {1U, 2U, 4U}) EXPECT_FALSE(std::signbit(values[zero]));
 }
 
 TEST(LastBits, NumbersKeepMoreBitsThanAFloatHas) {

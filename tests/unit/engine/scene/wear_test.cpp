@@ -100,7 +100,7 @@ TEST(WearMap, AMaskKeepsItsWhitePart) {
     image::ByteImage masked = whole;
     mask_wear({2, 1, {255, 0, 0, 255, 0, 255, 255, 255}}, masked);  // red to the left
     const auto texel = [](const image::ByteImage& map, int column) {
-        const auto first = map.rgba.begin() + 4 * (500 * kWearTexels + column);
+        const auto first = map.rgba.begin() + std::ptrdiff_t{4} * (500 * kWearTexels + column);
         return std::vector<std::uint8_t>(first, first + 4);
     };
     for (int column = 0; column < 256; ++column) EXPECT_EQ(texel(masked, column), texel(whole, column)) << column;

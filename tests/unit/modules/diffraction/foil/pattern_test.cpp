@@ -177,7 +177,7 @@ TEST(FoilPattern, TexelsWithoutFoilHaveNoGrating) {
     const auto texels = groove_texels(kArea, field_of({.type = Rainbow{}}), has_foil);
     EXPECT_EQ(texels[3 * 4 + 1], 0);
     EXPECT_EQ(texels[3 * 5 + 1], 32768);
-    EXPECT_EQ(texels[3 * 5], 32768);
+    EXPECT_EQ(texels[std::size_t{3} * 5], 32768);
 }
 
 }  // namespace
