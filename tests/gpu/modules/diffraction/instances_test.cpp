@@ -30,7 +30,7 @@ class Instances : public test::GlTest {
         return scene::build_mesh(scene::DiscRecipe{.inner_radius = 0.05, .outer_radius = 0.35, .segments = 24});
     }
 
-    /// Adds twelve objects at four heights, toward the camera's left or right.
+    /// Adds twelve objects, in four rows of three.
     void add_twelve(scene::Mesh mesh, const std::shared_ptr<const GpuMaterial>& material) {
         const render::MeshInstance shared = render::make_mesh_instance(std::move(mesh));
         for (int i = 0; i < 12; ++i) {
@@ -90,7 +90,7 @@ TEST_F(Instances, OfThePlainSurfaceCastShadowsAndShutOutLight) {
     world_.add(lamp, scene::Transform{.rotation = glm::angleAxis(-0.7F, glm::vec3(1.0F, 1.0F, 0.0F))});
     world_.add(lamp, scene::DirectionalLight{.irradiance = glm::vec3(2.0F), .casts_shadow = true});
     renderer_.set_effects({.ambient_occlusion = render::AmbientOcclusionSettings{}});
-    expect_as_by_itself(33);  // the picture, the shadow map and the depth each have one draw in place of twelve
+    expect_as_by_itself(33);  // one draw for twelve in the picture, in the shadow map and in the occlusion's depth
 }
 
 TEST_F(Instances, OfGratingsShareTheirMaps) {

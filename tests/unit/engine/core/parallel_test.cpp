@@ -70,7 +70,7 @@ TEST(Lazy, IsComputedOnceWhenACopyIsAskedFor) {
         ++computed;
         return std::string("table");
     });
-    const Lazy<std::string> copy = lazy;  // NOLINT(performance-unnecessary-copy-initialization): copies share
+    const Lazy<std::string> copy = lazy;  // NOLINT(performance-unnecessary-copy-initialization): is tested
     EXPECT_FALSE(lazy.is_computed());
     EXPECT_EQ(*copy, "table");
     EXPECT_EQ(lazy->size(), 5);
