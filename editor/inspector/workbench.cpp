@@ -52,12 +52,8 @@ bool begin_tile(const char* name, const ImVec2& corner, const ImVec2& size, ImGu
 /// Runs the enabled commands whose keys were pressed in this frame.
 void run_pressed(std::span<const Command> commands, const platform::InputState& input) {
     using platform::Key;
-    // A long frame may hold both the press and the release of a modifier.
-    const auto held = [&](Key left, Key right) {
-        return input.key(left).down || input.key(left).released || input.key(right).down || input.key(right).released;
-    };
-    const bool control = held(Key::LeftControl, Key::RightControl);
-    const bool shift = held(Key::LeftShift, Key::RightShift);
+    const bool control = input.key(Key::LeftControl).down || input.key(Key::RightControl).down;
+    const bool shift = input.key(Key::LeftShift).down || input.key(Key::RightShift).down;
     for (const Command& command : commands)
         if (command.enabled && command.key && input.key(*command.key).pressed &&
             control == command.keys.starts_with("Ctrl+") && shift == (command.keys.find("Shift+") != std::string::npos))

@@ -44,6 +44,18 @@ bool is_finite(glm::dvec2 v) {
 
 }  // namespace
 
+std::size_t events_of_one_frame(std::span<const InputEvent> events) {
+    bool pressed = false;
+    for (std::size_t i = 0; i < events.size(); ++i) {
+        const KeyEvent* key = std::get_if<KeyEvent>(&events[i]);
+        const MouseButtonEvent* button = std::get_if<MouseButtonEvent>(&events[i]);
+        const bool modifier = key != nullptr && key->key >= Key::LeftShift;
+        if (pressed && (modifier || std::holds_alternative<FocusEvent>(events[i]))) return i;
+        pressed = pressed || (key != nullptr && key->down && !modifier) || (button != nullptr && button->down);
+    }
+    return events.size();
+}
+
 glm::vec2 radial_dead_zone(glm::vec2 stick) {
     const float length = glm::length(stick);
     // The negation also catches NaN.

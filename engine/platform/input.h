@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <glm/vec2.hpp>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -18,7 +19,7 @@ enum class Key {
     F1, F2, F3, F4, F5, F6, F7, F8, F9, F10, F11, F12,
     Left, Right, Up, Down, Home, End, PageUp, PageDown, Insert, Delete,
     Space, Enter, Escape, Tab, Backspace, Minus, Equal, Comma, Period, Slash, GraveAccent, LeftBracket, RightBracket,
-    LeftShift, RightShift, LeftControl, RightControl, LeftAlt, RightAlt,
+    LeftShift, RightShift, LeftControl, RightControl, LeftAlt, RightAlt,  // the modifiers, last
     Count  // not a key
     // clang-format on
 };
@@ -76,6 +77,11 @@ struct CharEvent {
 
 using InputEvent = std::variant<KeyEvent, MouseButtonEvent, MouseMoveEvent, ScrollEvent, FocusEvent, CursorCaptureEvent,
                                 GamepadEvent, CharEvent>;
+
+/// The number of `events` that one frame takes: all, or those before a modifier (Shift, Control, Alt) or the focus
+/// changes after another key or a mouse button went down. At the end of the frame, the modifiers are those that each of
+/// its presses was made with, however long the frame took.
+std::size_t events_of_one_frame(std::span<const InputEvent> events);
 
 /// Fraction of a stick's travel that reads as centred; released worn sticks may stop anywhere inside it.
 constexpr float kStickDeadZone = 0.15F;

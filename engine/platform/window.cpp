@@ -272,12 +272,16 @@ std::vector<InputEvent> Window::poll_events() {
     const auto drops = std::exchange(state_->events.drops, {});
     if (state_->on_drop)
         for (const auto& files : drops) state_->on_drop(files);
-    std::vector<InputEvent> events = std::exchange(state_->events.input, {});
+    std::vector<InputEvent>& all = state_->events.input;
+    const auto end = all.begin() + static_cast<std::ptrdiff_t>(events_of_one_frame(all));
+    std::vector<InputEvent> events(all.begin(), end);
+    all.erase(all.begin(), end);
     events.emplace_back(read_gamepad());
     return events;
 }
 
 bool Window::wait(std::chrono::milliseconds limit) {
+    if (!state_->events.input.empty()) return true;
     const auto begin = std::chrono::steady_clock::now();
     glfwWaitEventsTimeout(std::chrono::duration<double>(limit).count());
     const bool exposed = std::exchange(state_->events.exposed, false);

@@ -65,11 +65,11 @@ class Window {
     /// Shows what was drawn; waits for the display if vsync is on.
     void swap();
 
-    /// The input since the last poll, in order, and then the state of the game pad. Calls the drop handler first for
-    /// dropped files, and passes on what it throws.
+    /// The input since the last poll, in order and as much as one frame takes (events_of_one_frame()), and then the
+    /// state of the game pad. Calls the drop handler first for dropped files, and passes on what it throws.
     std::vector<InputEvent> poll_events();
-    /// Waits until something happens to a window (input, exposure, another size), at most `limit` (> 0). False if
-    /// nothing did.
+    /// Waits until something happens to a window (input, exposure, another size), at most `limit` (> 0), and not at all
+    /// if the last poll left input. False if nothing happened.
     bool wait(std::chrono::milliseconds limit);
     /// Starts a frame of `input` and feeds it poll_events().
     void poll(InputState& input);

@@ -43,8 +43,8 @@ std::optional<gpu::ProgramDesc> MaterialType::overlay_program(ecs::World& /*worl
     return std::nullopt;
 }
 
-std::vector<gpu::ProgramDesc> MaterialType::later_programs(ecs::World& /*world*/, ecs::Entity /*entity*/,
-                                                           ProbeSlot /*slot*/) const {
+std::vector<LaterProgram> MaterialType::later_programs(ecs::World& /*world*/, ecs::Entity /*entity*/,
+                                                       ProbeSlot /*slot*/) const {
     return {};
 }
 

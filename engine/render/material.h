@@ -133,6 +133,12 @@ class DrawControl {
 std::uint64_t object_number(ecs::Entity entity);
 ecs::Entity entity_of(std::uint64_t object_number);
 
+/// A program that will draw an entity.
+struct LaterProgram {
+    gpu::ProgramDesc desc;
+    bool draws_instances = false;  ///< whether the entity will have a MaterialType::binding_key()
+};
+
 class SurfaceTextures;
 
 /// A material extension of a scene, as MaterialType::attach() gets it.
@@ -190,7 +196,7 @@ class MaterialType {
                                                             ProbeSlot slot) const;
     /// Programs that will draw an owned entity in place of program() and overlay_program(), without a change of the
     /// scene: they are compiled in this frame as well.
-    virtual std::vector<gpu::ProgramDesc> later_programs(ecs::World& world, ecs::Entity entity, ProbeSlot slot) const;
+    virtual std::vector<LaterProgram> later_programs(ecs::World& world, ecs::Entity entity, ProbeSlot slot) const;
     /// Updates per-object data. Called once per frame of Shading::Full, before programs are asked for and anything is
     /// drawn. `lights`: by index of LightMix. `seen`: the drawn entities, of any type, that are in the picture, then
     /// others that mirrors may show.

@@ -462,10 +462,10 @@ const gpu::Program* Renderer::overlay_program_of(ecs::World& world, const Draw& 
 
 void Renderer::compile_later_programs(ecs::World& world, const Draw& draw, ProbeSlot slot) {
     if (draw.type == nullptr) return;
-    const SurfaceFeatures features = draw.features | (draw.repeated != 0 ? feature::kInstanced : 0);
-    for (gpu::ProgramDesc& desc : draw.type->later_programs(world, draw.entity, slot)) {
-        add_defines(features, desc);
-        programs_.get(desc);
+    const SurfaceFeatures features = draw.features & ~feature::kInstanced;
+    for (LaterProgram& later : draw.type->later_programs(world, draw.entity, slot)) {
+        add_defines(features | (later.draws_instances && draw.repeated != 0 ? feature::kInstanced : 0), later.desc);
+        programs_.get(later.desc);
     }
 }
 

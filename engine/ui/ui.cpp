@@ -57,7 +57,7 @@ bool was_down(const platform::ButtonState& button) {
 }
 
 bool either_down(const platform::InputState& input, Key left, Key right) {
-    return was_down(input.key(left)) || was_down(input.key(right));
+    return input.key(left).down || input.key(right).down;
 }
 
 /// Tells ImGui which keys edit text and move through controls. ImGui then uses our key numbers.

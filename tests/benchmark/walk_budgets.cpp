@@ -1,7 +1,10 @@
 #include "tests/benchmark/walk_budgets.h"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdio>
+#include <utility>
 
 #include "engine/core/log.h"
 #include "modules/diffraction/asset/cooked_material.h"
@@ -20,22 +23,52 @@ constexpr int kMeasured = 16;
 struct Measured {
     double ms = 0.0;  ///< median
     double error = 0.0;
+    double largest_step = 0.0;
+    double settled_step = 0.0;
     std::map<std::string, double> samples;  ///< by representation
+};
+
+/// The largest change of a display value since the last frame, in 1/255. The mean of a picture is shown as .18.
+class StepMeter {
+ public:
+    double take(const gpu::Framebuffer& target) {
+        std::vector<glm::vec4> pixels = target.read_rgba_float();
+        double mean = 0.0;
+        for (const glm::vec4& pixel : pixels) mean += static_cast<double>(pixel.y) / static_cast<double>(pixels.size());
+        const auto display = [&](float value) {
+            return 255.0 * std::pow(std::clamp(0.18 * static_cast<double>(value) / mean, 0.0, 1.0), 1.0 / 2.2);
+        };
+        double largest = 0.0;
+        for (std::size_t i = 0; i < before_.size(); ++i)
+            for (int c = 0; c < 3; ++c)
+                largest = std::max(largest, std::abs(display(pixels[i][c]) - display(before_[i][c])));
+        before_ = std::move(pixels);
+        return largest;
+    }
+
+ private:
+    std::vector<glm::vec4> before_;
 };
 
 Measured measure(Rooms& rooms, ecs::Entity holder, const scene::Camera& camera, const gpu::Framebuffer& target,
                  double budget_ms) {
-    rooms.world().add(holder, diffraction::FrameBudget{budget_ms});
-    for (int frame = 0; frame < kSettling || diffraction::maps_are_filling(rooms.world()); ++frame)
-        rooms.draw_ms(camera, target);
     Measured measured;
+    StepMeter steps;
+    steps.take(target);
+    rooms.world().add(holder, diffraction::FrameBudget{budget_ms});
+    for (int frame = 0; frame < kSettling || diffraction::maps_are_filling(rooms.world()); ++frame) {
+        rooms.draw_ms(camera, target);
+        measured.largest_step = std::max(measured.largest_step, steps.take(target));
+    }
     std::vector<double> times;
     for (int frame = 0; frame < kMeasured; ++frame) {
         rooms.draw_ms(camera, target);
+        measured.settled_step = std::max(measured.settled_step, steps.take(target));
         const auto& report = rooms.world().get<diffraction::FrameBudgetReport>(holder);
         times.push_back(report.last_ms);
         measured.error = report.error;
     }
+    measured.largest_step = std::max(measured.largest_step, measured.settled_step);
     measured.ms = diffraction::quantile(times, 0.5);
     rooms.world().view<diffraction::DrawnRung>().each([&](ecs::Entity, const diffraction::DrawnRung& drawn) {
         measured.samples[info(drawn.material()->cooked()->tables).name] += drawn.samples;
@@ -70,6 +103,8 @@ std::vector<BudgetFrames> draw_under_budgets(const WalkOptions& options, int sto
             budget.budget_ms += ms / stops;
             budget.spent_ms += measured.ms / stops;
             budget.error += measured.error * samples;
+            budget.largest_step = std::max(budget.largest_step, measured.largest_step);
+            budget.settled_step = std::max(budget.settled_step, measured.settled_step);
         }
         all_samples += samples;
         progress.advance();
@@ -84,9 +119,11 @@ std::vector<BudgetFrames> draw_under_budgets(const WalkOptions& options, int sto
 }
 
 void print_budgets(const std::vector<BudgetFrames>& budgets) {
-    std::printf("%8s %10s %10s %9s  %s\n", "part", "budget ms", "ms", "error ×", "pixels drawn by");
+    std::printf("%8s %10s %10s %9s %13s %12s  %s\n", "part", "budget ms", "ms", "error ×", "largest step",
+                "settled step", "pixels drawn by");
     for (const BudgetFrames& budget : budgets) {
-        std::printf("%8.2f %10.2f %10.2f %9.3f ", budget.part, budget.budget_ms, budget.spent_ms, budget.error);
+        std::printf("%8.2f %10.2f %10.2f %9.3f %13.1f %12.1f ", budget.part, budget.budget_ms, budget.spent_ms,
+                    budget.error, budget.largest_step, budget.settled_step);
         for (const auto& [name, part] : budget.pixels) std::printf(" %s %.0f %%", name.c_str(), 100.0 * part);
         std::printf("\n");
     }
@@ -99,6 +136,8 @@ nlohmann::ordered_json budgets_json(const std::vector<BudgetFrames>& budgets) {
                         {"budget_ms", budget.budget_ms},
                         {"spent_ms", budget.spent_ms},
                         {"error", budget.error},
+                        {"largest_step", budget.largest_step},
+                        {"settled_step", budget.settled_step},
                         {"pixels", budget.pixels}});
     return list;
 }

@@ -15,6 +15,10 @@ struct BudgetFrames {
     double budget_ms = 0.0;  ///< mean over the stops
     double spent_ms = 0.0;   ///< likewise, of the GPU or, where the processor draws, its threads
     double error = 0.0;      ///< mean over the pixels, as a multiple of what budgets ask for by default
+    /// The largest change of a display value from frame to frame of a camera that stands still, in 1/255: from the
+    /// first frame within the budget on, in which rungs begin to fade.
+    double largest_step = 0.0;
+    double settled_step = 0.0;  ///< the same after kSettling frames
     /// The part of the gratings' pixels that each representation draws.
     std::map<std::string, double> pixels;
 };

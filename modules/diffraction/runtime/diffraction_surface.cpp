@@ -195,12 +195,12 @@ void DiffractionSurfaceType::warn_illuminant_mismatch(const std::string& baked_f
                 baked_for);
 }
 
-std::vector<gpu::ProgramDesc> DiffractionSurfaceType::later_programs(ecs::World& world, ecs::Entity entity,
-                                                                     render::ProbeSlot slot) const {
-    std::vector<gpu::ProgramDesc> programs;
+std::vector<render::LaterProgram> DiffractionSurfaceType::later_programs(ecs::World& world, ecs::Entity entity,
+                                                                         render::ProbeSlot slot) const {
+    std::vector<render::LaterProgram> programs;
     const auto add = [&](SurfaceState& side) {
         const bool without_map = std::exchange(side.without_map, false);
-        programs.push_back(side.material->program(side));
+        programs.push_back({side.material->program(side), side.material->binding_key(side) != 0});
         side.without_map = without_map;
     };
     SurfaceState& state = state_of(world, entity, slot);

@@ -61,8 +61,8 @@ class DiffractionSurfaceType final : public render::MaterialType {
     gpu::ProgramDesc program(ecs::World& world, ecs::Entity entity, render::ProbeSlot slot) const override;
     std::uint64_t program_key(ecs::World& world, ecs::Entity entity, render::ProbeSlot slot) const override;
     std::uint64_t binding_key(ecs::World& world, ecs::Entity entity, render::ProbeSlot slot) const override;
-    std::vector<gpu::ProgramDesc> later_programs(ecs::World& world, ecs::Entity entity,
-                                                 render::ProbeSlot slot) const override;
+    std::vector<render::LaterProgram> later_programs(ecs::World& world, ecs::Entity entity,
+                                                     render::ProbeSlot slot) const override;
     void update(ecs::World& world, std::span<const render::FrameLight> lights,
                 std::span<const render::LitEntity> seen) override;
     std::uint64_t version() const override { return version_; }

@@ -101,8 +101,8 @@ class UnderLight final : public render::MaterialType {
     gpu::ProgramDesc program(ecs::World& world, ecs::Entity entity, render::ProbeSlot slot) const override {
         return inner_.program(world, entity, slot);
     }
-    std::vector<gpu::ProgramDesc> later_programs(ecs::World& world, ecs::Entity entity,
-                                                 render::ProbeSlot slot) const override {
+    std::vector<render::LaterProgram> later_programs(ecs::World& world, ecs::Entity entity,
+                                                     render::ProbeSlot slot) const override {
         return inner_.later_programs(world, entity, slot);
     }
     void update(ecs::World& world, std::span<const render::FrameLight> frame,

@@ -11,12 +11,14 @@ namespace {
 
 constexpr int kSize = 96;
 constexpr const char* kCircleQuality = R"({"representation": "circle", "map_resolution": 32, "key_lights": 3})";
+constexpr const char* kStreakQuality =
+    R"({"representation": "streak", "map_resolution": 64, "bands": 3, "rank": 6, "view_resolution": 12})";
 
 /// Rows of objects in front of the camera.
 class Instances : public test::GlTest {
  protected:
-    Instances() {
-        register_module(renderer_, {.map_pace = MapPace::Whole});
+    explicit Instances(const DiffractionSettings& settings = {.map_pace = MapPace::Whole}) {
+        register_module(renderer_, settings);
         renderer_.set_probe(probe());
         renderer_.use_key_lights(true);
     }
@@ -84,6 +86,12 @@ class Instances : public test::GlTest {
     int draws_ = 0;
 };
 
+/// No map is there in the first frame.
+class InstancesToCome : public Instances {
+ protected:
+    InstancesToCome() : Instances({.map_pace = MapPace::Incremental, .map_wait = std::chrono::milliseconds(0)}) {}
+};
+
 TEST_F(Instances, OfThePlainSurfaceCastShadowsAndShutOutLight) {
     add_twelve(sphere(), nullptr);
     const ecs::Entity lamp = world_.create();
@@ -117,6 +125,23 @@ TEST_F(Instances, ThatDifferInMoreThanTheirTransformAreDrawnApart) {
     world_.get<scene::Transform>(objects_[3]).scale = glm::vec3(0.5F, 1.0F, 1.5F);
     world_.get<scene::Transform>(objects_[13]).rotation *= glm::angleAxis(0.3F, glm::vec3(0.0F, 0.0F, 1.0F));
     expect_as_by_itself(24 - 6);
+}
+
+TEST_F(InstancesToCome, AreDrawnWithProgramsThatWereLinkedWhileTheirMapsWereFilled) {
+    // The incoherent part of pits lies in each object's vertices: these are never drawn at once.
+    const auto streak = make_gpu_material(cook(kPits, kStreakQuality), glm::dmat3(1.0));
+    const auto planar =
+        make_gpu_material(cook(kSlitCd, R"({"representation": "planar", "map_resolution": 48})"), glm::dmat3(1.0));
+    add_twelve(disc(), streak);
+    add_twelve(disc(), planar);
+    scene::update_world_matrices(world_);
+    renderer_.render(world_, camera_, target_);
+    const auto linked = renderer_.report().programs;
+    const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+    while (maps_are_filling(world_) && std::chrono::steady_clock::now() < deadline) draw();
+    draw();
+    EXPECT_EQ(draws_, 12 + 1 + 1);  // and the sky
+    EXPECT_EQ(renderer_.report().programs, linked);
 }
 
 TEST_F(Instances, BetweenTwoProbesAreDrawnUnderEach) {

@@ -54,6 +54,27 @@ TEST(Input, AKeysStateFollowsItsEventsOfEachFrame) {
     }
 }
 
+TEST(Input, AFrameEndsWhereAModifierChangesAfterAPress) {
+    const InputEvent control{KeyEvent{Key::LeftControl, true}};
+    const InputEvent no_control{KeyEvent{Key::LeftControl, false}};
+    const InputEvent a{KeyEvent{Key::A, true}};
+    const InputEvent no_a{KeyEvent{Key::A, false}};
+    const InputEvent click{MouseButtonEvent{MouseButton::Left, true}};
+    const InputEvent unfocused{FocusEvent{false}};
+    const std::vector<std::pair<std::vector<InputEvent>, std::size_t>> cases = {
+        {{}, 0},
+        {{control, a, no_a}, 3},
+        {{control, a, no_a, no_control, a}, 3},
+        {{a, no_a, control, a}, 2},
+        {{no_a, no_control, a, CharEvent{U'a'}}, 4},
+        {{control, no_control, control, click, MouseMoveEvent{{1.0, 1.0}}, no_control}, 5},
+        {{a, unfocused}, 1},
+        {{unfocused, a}, 2},
+    };
+    for (const auto& [events, count] : cases)
+        EXPECT_EQ(events_of_one_frame(events), count) << "of " << events.size() << " events";
+}
+
 TEST(Input, KeyAxisCountsTapsAndCancelsOpposites) {
     InputState input;
     EXPECT_EQ(input.key_axis(Key::A, Key::D), 0.0F);

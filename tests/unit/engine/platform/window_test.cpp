@@ -256,6 +256,15 @@ TEST_F(WindowInput, KeyTappedBetweenTwoPollsIsPressedAndReleased) {
     EXPECT_FALSE(input_.key(Key::S).pressed);
 }
 
+TEST_F(WindowInput, AModifierReleasedBetweenTwoPollsIsStillDownForTheKeyBeforeIt) {
+    act("keydown ctrl");
+    ASSERT_TRUE(poll_until([&] { return input_.key(Key::LeftControl).down; }));
+    act("key a keyup ctrl");
+    ASSERT_TRUE(poll_until([&] { return input_.key(Key::A).pressed; }));
+    EXPECT_TRUE(input_.key(Key::LeftControl).down);
+    EXPECT_TRUE(poll_until([&] { return input_.key(Key::LeftControl).released; }));
+}
+
 TEST_F(WindowInput, HeldKeyIsPressedOnceDespiteTheKeyboardsRepeat) {
     act("keydown d");
     ASSERT_TRUE(poll_until([&] { return input_.key(Key::D).pressed; }));
