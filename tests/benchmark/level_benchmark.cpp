@@ -216,7 +216,7 @@ void measure_budgets(const Options& options, const Palette& materials, gpu::Fram
     std::printf("%8s %10s %10s %7s %10s %9s %9s\n", "part", "budget ms", "ms", "ratio", "predicted", "error ×",
                 "changing");
     for (const double part : {0.9, 0.75, 0.5, 0.25, 0.1}) {
-        draw(part * free_ms, 200);
+        draw(part * free_ms, 400);
         const auto reports = draw(part * free_ms, kFrames);
         int changing = 0;
         for (const auto& report : reports) changing += report.fading > 0 ? 1 : 0;

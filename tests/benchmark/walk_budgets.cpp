@@ -17,7 +17,7 @@ namespace {
 
 constexpr double kNoLimit_ms = 1e9;
 /// Frames that a budget takes to be met, and then those that are measured.
-constexpr int kSettling = 48;
+constexpr int kSettling = 2 * diffraction::kMostFadeFrames;
 constexpr int kMeasured = 16;
 
 struct Measured {
@@ -71,7 +71,7 @@ Measured measure(Rooms& rooms, ecs::Entity holder, const scene::Camera& camera, 
     measured.largest_step = std::max(measured.largest_step, measured.settled_step);
     measured.ms = diffraction::quantile(times, 0.5);
     rooms.world().view<diffraction::DrawnRung>().each([&](ecs::Entity, const diffraction::DrawnRung& drawn) {
-        measured.samples[info(drawn.material()->cooked()->tables).name] += drawn.samples;
+        measured.samples[info(drawn.material()->cooked()->tables).name] += drawn.size.samples;
     });
     return measured;
 }

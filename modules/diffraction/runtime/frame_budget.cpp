@@ -1,7 +1,9 @@
 #include "modules/diffraction/runtime/frame_budget.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numeric>
 
@@ -132,38 +134,149 @@ std::vector<std::size_t> assign_rungs(std::span<const std::vector<RungOption>> o
     return Search(objects, ms, efficiency, std::move(at)).best();
 }
 
-double DrawCosts::price(std::uint64_t kind) const {
+namespace {
+
+constexpr double kAim = 0.98;  // of the time, so that noise rarely exceeds it
+
+struct Bounds {
+    double fixed_ms = 0.0;    ///< of the objects that fade, when they have
+    double fastest_ms = 0.0;  ///< the least that the others can take
+};
+
+Bounds bounds_of(std::span<const ObjectRungs> objects) {
+    Bounds bounds;
+    for (const ObjectRungs& object : objects) {
+        if (object.fades)
+            bounds.fixed_ms += object.options[object.wanted].ms;
+        else
+            bounds.fastest_ms += std::ranges::min(object.options, {}, &RungOption::ms).ms;
+    }
+    return bounds;
+}
+
+/// From the rung that an object shows to another, or to the same.
+struct Change {
+    ObjectRungs* object;
+    std::size_t to;
+
+    const RungOption& before() const { return object->options[object->shown]; }
+    const RungOption& after() const { return object->options[to]; }
+    double saved_error() const { return before().error - after().error; }
+};
+
+/// Lets objects want the better rungs of `changes`, those that save the most error first, as long as the frame with all
+/// that is shown and all that fades in takes no longer than `limit_ms`. One may change alone, however long it takes.
+void begin_better(std::span<ObjectRungs> objects, std::vector<Change> changes, double limit_ms) {
+    double drawn_ms = 0.0;
+    bool any_changes = false;
+    for (const ObjectRungs& object : objects) {
+        const bool changes_rung = object.wanted != object.shown;
+        drawn_ms += object.options[object.shown].ms + (changes_rung ? object.options[object.wanted].ms : 0.0);
+        any_changes = any_changes || changes_rung;
+    }
+    std::ranges::stable_sort(changes, std::greater<>(), &Change::saved_error);
+    for (const Change& change : changes) {
+        if (change.to == change.object->shown || change.object->wanted != change.object->shown) continue;
+        if (any_changes && drawn_ms + change.after().ms > limit_ms) continue;
+        change.object->wanted = change.to;
+        drawn_ms += change.after().ms;
+        any_changes = true;
+    }
+}
+
+}  // namespace
+
+int fade_frames(double relative_error) {
+    // A display value is about the radiance to the power of 1/2.2: a frame then changes it by 2/255 of white or less.
+    constexpr double kFramesOfError = 75.0;
+    return std::clamp(static_cast<int>(std::ceil(kFramesOfError * relative_error)), kLeastFadeFrames, kMostFadeFrames);
+}
+
+void RungChooser::choose(std::span<ObjectRungs> objects, double ms) {
+    constexpr double kNearlyFastest = 1.02;
+    constexpr double kTooCoarse = 1.0 / 0.9;
+    constexpr int kPatienceWhenMuchTooLong = 2;  // frames
+    constexpr int kPatienceWhenTooLong = 4;
+    constexpr int kPatienceWhenTooCoarse = 8;
+
+    const Bounds bounds = bounds_of(objects);
+    const double limit_ms = std::max(ms, (bounds.fixed_ms + kNearlyFastest * bounds.fastest_ms) / kAim);
+    std::vector<std::vector<RungOption>> options;
+    std::vector<Change> changes;  // in the order of `options`
+    for (ObjectRungs& object : objects) {
+        if (object.fades) continue;
+        options.push_back(object.options);
+        changes.push_back({&object, 0});
+    }
+    const std::vector<std::size_t> best = assign_rungs(options, kAim * limit_ms - bounds.fixed_ms);
+    double wanted_ms = bounds.fixed_ms;
+    double wanted_error = 0.0;
+    double best_error = 0.0;
+    for (std::size_t i = 0; i < best.size(); ++i) {
+        changes[i].to = best[i];
+        const RungOption& wanted = options[i][changes[i].object->wanted];
+        wanted_ms += wanted.ms;
+        wanted_error += wanted.error;
+        best_error += changes[i].after().error;
+    }
+    frames_too_long_ = wanted_ms > kTooLong * limit_ms ? frames_too_long_ + 1 : 0;
+    frames_too_coarse_ = wanted_error > kTooCoarse * best_error ? frames_too_coarse_ + 1 : 0;
+    const int patience = wanted_ms > kMuchTooLong * limit_ms ? kPatienceWhenMuchTooLong : kPatienceWhenTooLong;
+    const bool too_long = frames_too_long_ >= patience;
+    const bool too_coarse = frames_too_coarse_ >= kPatienceWhenTooCoarse;
+    if (!too_long && !too_coarse) return;
+
+    for (const Change& change : changes)
+        change.object->wanted = change.after().ms < change.before().ms ? change.to : change.object->shown;
+    if (too_long) return;
+    begin_better(objects, std::move(changes), limit_ms);
+}
+
+double DrawCosts::work_of_samples(std::uint64_t kind, const DrawSize& size) const {
     const auto found = prices_.find(kind);
-    return found == prices_.end() ? 0.0 : found->second;
+    return found == prices_.end() ? 0.0 : found->second * size.samples;
+}
+
+double DrawCosts::work(std::uint64_t kind, const DrawSize& size) const {
+    return prices_.contains(kind) ? work_of_samples(kind, size) + price_of_vertex_ * size.vertices : 0.0;
 }
 
 void DrawCosts::learn(std::span<const Run> frame) {
-    // The weight of a new frame is small for noise and large for a new load.
+    // The weight of a frame is small for noise and large for a new load.
     constexpr double kLeastOfLoad = 0.1;
-    constexpr double kMostOfLoad = 0.5;
+    constexpr double kMostOfLoad = 0.7;
     constexpr double kOfPrice = 0.1;
     constexpr double kFewSamples = 2000.0;  // below, a run's time is that of its state changes
     double units = 0.0;
     double ms = 0.0;
     for (const Run& run : frame) {
-        units += price(run.kind) * run.samples;
+        units += work(run.kind, run.size);
         ms += run.ms;
     }
     if (units <= 0.0 || ms <= 0.0) return;
     const double now = ms / units;
-    if (ms_per_unit_ == 0.0) ms_per_unit_ = now;
-    const double weight = std::clamp(2.0 * std::abs(std::log(now / ms_per_unit_)), kLeastOfLoad, kMostOfLoad);
-    ms_per_unit_ += weight * (now - ms_per_unit_);
+    if (ms_per_unit_ == 0.0) {
+        recent_.fill(now);
+        ms_per_unit_ = now;
+    }
+    recent_ = {recent_[1], recent_[2], now};
+    std::array<double, 3> sorted = recent_;
+    std::ranges::sort(sorted);
+    const double middle = sorted[1];  // one slow frame is noise
+    const double weight = std::clamp(3.0 * std::abs(std::log(middle / ms_per_unit_)), kLeastOfLoad, kMostOfLoad);
+    ms_per_unit_ += weight * (middle - ms_per_unit_);
     for (const Run& run : frame) {
         const auto found = prices_.find(run.kind);
-        if (found == prices_.end() || run.samples < kFewSamples) continue;
-        const double ratio = std::clamp(run.ms / (found->second * run.samples * now), 0.25, 4.0);
+        const double of_vertices = price_of_vertex_ * run.size.vertices;
+        const double of_samples = work_of_samples(run.kind, run.size);
+        if (found == prices_.end() || run.size.samples < kFewSamples || of_samples < of_vertices) continue;
+        const double ratio = std::clamp((run.ms / now - of_vertices) / of_samples, 0.25, 4.0);
         found->second *= std::pow(ratio, kOfPrice);
     }
 }
 
-double DrawCosts::ms(std::uint64_t kind, double samples) const {
-    return ms_per_unit_ * price(kind) * samples;
+double DrawCosts::ms(std::uint64_t kind, const DrawSize& size) const {
+    return ms_per_unit_ * work(kind, size);
 }
 
 }  // namespace rowland::diffraction

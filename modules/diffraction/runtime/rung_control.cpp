@@ -1,6 +1,7 @@
 #include "modules/diffraction/runtime/rung_control.h"
 
 #include <algorithm>
+#include <glm/common.hpp>
 #include <utility>
 
 #include "engine/render/gpu_mesh.h"
@@ -14,6 +15,8 @@ namespace {
 
 /// What a draw costs besides the grating, in the units of shading_price(): the base, its light and its output.
 constexpr double kBasePrice = 40.0;
+/// What a vertex costs: a third of a pixel of the base by AMD's compiler, a fifteenth on llvmpipe.
+constexpr double kVertexPrice = 5.0;
 
 /// Draws without a map, by a stand-in, are of another kind.
 std::uint64_t kind_of(const GpuMaterial& material, bool without_map) {
@@ -25,6 +28,13 @@ double relative_error(const BudgetRecord& record) {
 }
 
 }  // namespace
+
+RungControl::RungControl(const glm::dmat3& xyz_to_working) : xyz_to_working_(xyz_to_working), costs_(kVertexPrice) {}
+
+int DrawnRung::frames_of_fade() const {
+    return fade_frames(default_max_error(ErrorMeasure::RelativeRms) *
+                       std::max((*ladder)[shown].error, (*ladder)[wanted].error));
+}
 
 std::shared_ptr<const Ladder> RungControl::ladder_of(const std::shared_ptr<const GpuMaterial>& material) {
     std::weak_ptr<const Ladder>& kept = ladders_[material.get()];
@@ -49,17 +59,21 @@ std::shared_ptr<const Ladder> RungControl::ladder_of(const std::shared_ptr<const
 
 void RungControl::take(ecs::World& world, std::span<const gpu::MeteredRun> runs) {
     constexpr double kOfFrame = 0.1;
-    world.view<DrawnRung>().each([](ecs::Entity, DrawnRung& drawn) { drawn.samples = 0.0; });
+    world.view<DrawnRung>().each([](ecs::Entity, DrawnRung& drawn) { drawn.size = {}; });
     std::vector<DrawCosts::Run> taken;
     double ms = 0.0;
     for (const gpu::MeteredRun& run : runs) {
         DrawCosts::Run& total = taken.emplace_back(DrawCosts::Run{.kind = run.kind, .ms = run.gpu_ms});
         ms += run.gpu_ms;
         for (const gpu::MeteredRun::Draw& draw : run.draws) {
+            const ecs::Entity entity = render::entity_of(draw.object);
+            DrawnRung* drawn = world.find<DrawnRung>(entity);
+            if (drawn == nullptr) continue;
             const auto samples = static_cast<double>(draw.samples);
-            total.samples += samples;
-            if (DrawnRung* drawn = world.find<DrawnRung>(render::entity_of(draw.object)))
-                drawn->samples = std::max(drawn->samples, samples);
+            drawn->size = {.samples = std::max(drawn->size.samples, samples),
+                           .vertices = static_cast<double>(world.get<SurfaceState>(entity).mesh->positions.size())};
+            total.size.samples += samples;
+            total.size.vertices += drawn->size.vertices;
         }
     }
     report_.last_ms = ms;
@@ -75,7 +89,9 @@ std::uint64_t RungControl::kind(ecs::World& world, ecs::Entity entity, render::P
 std::optional<float> RungControl::second_part(ecs::World& world, ecs::Entity entity) const {
     const DrawnRung* drawn = world.find<DrawnRung>(entity);
     if (drawn == nullptr || drawn->fade_frame == 0) return std::nullopt;
-    return static_cast<float>(drawn->fade_frame) / static_cast<float>(kFadeFrames + 1);
+    // Slow at both ends, where the eye sees a small part of one rung if the other is dark.
+    const float time = static_cast<float>(drawn->fade_frame) / static_cast<float>(drawn->frames_of_fade() + 1);
+    return glm::smoothstep(0.0F, 1.0F, time);
 }
 
 bool RungControl::announces(const DrawnRung& drawn, ecs::Entity entity) const {
@@ -83,15 +99,13 @@ bool RungControl::announces(const DrawnRung& drawn, ecs::Entity entity) const {
     return drawn.announced != frame_ && (!drawn.announced || (frame_ + entity.index) % kPeriod == 0);
 }
 
-std::vector<RungOption> RungControl::options_of(const Candidate& candidate) const {
+ObjectRungs RungControl::rungs_of(const Candidate& candidate) const {
     const DrawnRung& drawn = *candidate.drawn;
-    const auto option = [&](const Rung& rung) {
-        return RungOption{.error = rung.error * candidate.samples,
-                          .ms = costs_.ms(kind_of(*rung.material, false), candidate.samples)};
-    };
-    std::vector<RungOption> options;
-    for (const Rung& rung : *drawn.ladder) options.push_back(option(rung));
-    return options;
+    ObjectRungs rungs{.shown = drawn.shown, .wanted = drawn.wanted, .fades = drawn.fade_frame > 0 || drawn.recorded};
+    for (const Rung& rung : *drawn.ladder)
+        rungs.options.push_back({.error = rung.error * candidate.size.samples,
+                                 .ms = costs_.ms(kind_of(*rung.material, false), candidate.size)});
+    return rungs;
 }
 
 void RungControl::choose(ecs::World& world, std::span<const render::LitEntity> seen, double gratings_ms) {
@@ -111,51 +125,36 @@ void RungControl::choose(ecs::World& world, std::span<const render::LitEntity> s
                 drawn->wanted = std::min(recorded->rung, drawn->ladder->size() - 1);
         });
     std::vector<Candidate> candidates;
-    std::vector<Candidate> recorded;
-    double fixed_ms = 0.0;
+    std::vector<ObjectRungs> objects;
     for (const render::LitEntity& lit : seen) {
         DrawnRung* drawn = world.find<DrawnRung>(lit.entity);
         if (drawn == nullptr) continue;
         drawn->may_fade = !lit.light.has_second();
-        if (drawn->samples == 0.0) continue;
-        const Candidate candidate{drawn, drawn->samples * (lit.light.has_second() ? 2.0 : 1.0)};
-        if (drawn->fade_frame > 0 || drawn->recorded) fixed_ms += options_of(candidate)[drawn->wanted].ms;
-        if (drawn->fade_frame == 0) (drawn->recorded ? recorded : candidates).push_back(candidate);
+        if (drawn->size.samples == 0.0) continue;
+        const double slots = lit.light.has_second() ? 2.0 : 1.0;
+        candidates.push_back(
+            {drawn, {.samples = slots * drawn->size.samples, .vertices = slots * drawn->size.vertices}});
+        objects.push_back(rungs_of(candidates.back()));
     }
-
-    constexpr double kAim = 0.98;  // of the time, so that noise rarely exceeds it
-    constexpr double kTooLong = 1.05;
-    constexpr double kBetter = 0.9;  // of the error, worth a change
-    constexpr double kMuchTooLong = 1.25;
-    fade_step_ = report_.last_ms > kMuchTooLong * gratings_ms ? 2 : 1;
-    std::vector<std::vector<RungOption>> options;
-    double ms = fixed_ms;
-    double error = 0.0;
-    for (const Candidate& candidate : candidates) {
-        options.push_back(options_of(candidate));
-        ms += options.back()[candidate.drawn->wanted].ms;
-        error += options.back()[candidate.drawn->wanted].error;
+    chooser_.choose(objects, gratings_ms);
+    double ms = 0.0;
+    for (std::size_t i = 0; i < objects.size(); ++i) {
+        candidates[i].drawn->wanted = objects[i].wanted;
+        ms += objects[i].options[objects[i].wanted].ms;
     }
-    const std::vector<std::size_t> best = assign_rungs(options, kAim * gratings_ms - fixed_ms);
-    double best_ms = fixed_ms;
-    double best_error = 0.0;
-    for (std::size_t i = 0; i < best.size(); ++i) {
-        best_ms += options[i][best[i]].ms;
-        best_error += options[i][best[i]].error;
-    }
-    if (ms > kTooLong * gratings_ms || best_error < kBetter * error) {
-        for (std::size_t i = 0; i < best.size(); ++i) candidates[i].drawn->wanted = best[i];
-        ms = best_ms;
-    }
-    candidates.insert(candidates.end(), recorded.begin(), recorded.end());
     write_report(candidates, ms);
+
+    // One slow frame is noise.
+    const double ms_at_least = std::min(report_.last_ms, std::exchange(ms_before_, report_.last_ms));
+    urgent_ = ms_at_least > kTooLong * gratings_ms;
 }
 
 void RungControl::write_report(std::span<const Candidate> candidates, double predicted_ms) {
     report_ = {.last_ms = report_.last_ms, .spent_ms = report_.spent_ms, .predicted_ms = predicted_ms};
     double samples = 0.0;
-    for (const auto& [drawn, count] : candidates) {
+    for (const auto& [drawn, size] : candidates) {
         const Ladder& ladder = *drawn->ladder;
+        const double count = size.samples;
         const double least = std::ranges::min(ladder, {}, &Rung::error).error;
         ++report_.objects;
         if (ladder[drawn->wanted].error == least) ++report_.at_best;
@@ -172,8 +171,10 @@ void RungControl::step_fade(DrawnRung& drawn, SurfaceState& state) const {
     if (!drawn.changes()) return;
     const bool ready = state.fades && state.second && state.second->material == drawn.next_material() &&
                        state.second->light_version && !state.second->without_map;
-    if (drawn.fade_frame > 0 || ready) drawn.fade_frame += drawn.recorded ? 1 : fade_step_;
-    if (drawn.may_fade && drawn.fade_frame <= kFadeFrames) return;
+    const int frames = drawn.frames_of_fade();
+    if (drawn.fade_frame > 0 || ready)
+        drawn.fade_frame += urgent_ && !drawn.recorded ? (frames + kLeastFadeFrames - 1) / kLeastFadeFrames : 1;
+    if (drawn.may_fade && drawn.fade_frame <= frames) return;
     if (ready) {
         const auto second = std::move(state.second);
         state = std::move(*second);

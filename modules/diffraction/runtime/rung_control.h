@@ -32,24 +32,22 @@ struct DrawnRung {
     std::shared_ptr<const Ladder> ladder;
     std::size_t shown = 0;
     std::size_t wanted = 0;
-    int fade_frame = 0;                           ///< of kFadeFrames; 0: it does not fade
-    double samples = 0.0;                         ///< that the last draw covered
+    int fade_frame = 0;                           ///< of fade_frames(); 0: it does not fade
+    DrawSize size = {};                           ///< of its last draw
     bool recorded = false;                        ///< it has a RecordedRung
     bool may_fade = false;                        ///< it is seen, and under one probe: another has the second slot
     std::optional<std::uint64_t> announced = {};  ///< frame in which later_programs() named the rungs' programs
 
     bool changes() const { return wanted != shown; }
+    int frames_of_fade() const;
     const std::shared_ptr<const GpuMaterial>& material() const { return (*ladder)[shown].material; }
     const std::shared_ptr<const GpuMaterial>& next_material() const { return (*ladder)[wanted].material; }
 };
 
-/// Frames in which the next rung fades in.
-inline constexpr int kFadeFrames = 8;
-
 /// Chooses the rungs of all objects in each frame so that their draws take no longer than a FrameBudget, as measured.
 class RungControl final : public render::DrawControl {
  public:
-    explicit RungControl(const glm::dmat3& xyz_to_working) : xyz_to_working_(xyz_to_working) {}
+    explicit RungControl(const glm::dmat3& xyz_to_working);
 
     void take(ecs::World& world, std::span<const gpu::MeteredRun> runs) override;
     std::uint64_t kind(ecs::World& world, ecs::Entity entity, render::ProbeSlot slot) const override;
@@ -69,19 +67,21 @@ class RungControl final : public render::DrawControl {
     /// A seen object whose samples were counted.
     struct Candidate {
         DrawnRung* drawn;
-        double samples;  ///< of both slots
+        DrawSize size;  ///< of both slots
     };
 
     std::shared_ptr<const Ladder> ladder_of(const std::shared_ptr<const GpuMaterial>& material);
-    std::vector<RungOption> options_of(const Candidate& candidate) const;
+    ObjectRungs rungs_of(const Candidate& candidate) const;
     void write_report(std::span<const Candidate> candidates, double predicted_ms);
 
     glm::dmat3 xyz_to_working_;
     std::map<const GpuMaterial*, std::weak_ptr<const Ladder>> ladders_;
     DrawCosts costs_;
+    RungChooser chooser_;
     FrameBudgetReport report_;
     std::uint64_t frame_ = 0;
-    int fade_step_ = 1;  ///< frames of a fade in one frame; 2 while the time is far too long
+    double ms_before_ = 0.0;  ///< FrameBudgetReport::last_ms of the frame before
+    bool urgent_ = false;     ///< the time is exceeded: all fades end within kLeastFadeFrames
 };
 
 }  // namespace rowland::diffraction
