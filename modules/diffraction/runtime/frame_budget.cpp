@@ -195,6 +195,7 @@ int fade_frames(double relative_error) {
 void RungChooser::choose(std::span<ObjectRungs> objects, double ms) {
     constexpr double kNearlyFastest = 1.02;
     constexpr double kTooCoarse = 1.0 / 0.9;
+    constexpr double kAmple = 0.8;               // of the time: what takes less changes for any gain
     constexpr int kPatienceWhenMuchTooLong = 2;  // frames
     constexpr int kPatienceWhenTooLong = 4;
     constexpr int kPatienceWhenTooCoarse = 8;
@@ -211,16 +212,19 @@ void RungChooser::choose(std::span<ObjectRungs> objects, double ms) {
     const std::vector<std::size_t> best = assign_rungs(options, kAim * limit_ms - bounds.fixed_ms);
     double wanted_ms = bounds.fixed_ms;
     double wanted_error = 0.0;
+    double best_ms = bounds.fixed_ms;
     double best_error = 0.0;
     for (std::size_t i = 0; i < best.size(); ++i) {
         changes[i].to = best[i];
         const RungOption& wanted = options[i][changes[i].object->wanted];
         wanted_ms += wanted.ms;
         wanted_error += wanted.error;
+        best_ms += changes[i].after().ms;
         best_error += changes[i].after().error;
     }
     frames_too_long_ = wanted_ms > kTooLong * limit_ms ? frames_too_long_ + 1 : 0;
-    frames_too_coarse_ = wanted_error > kTooCoarse * best_error ? frames_too_coarse_ + 1 : 0;
+    const double tolerated = best_ms < kAmple * limit_ms ? 1.0 : kTooCoarse;
+    frames_too_coarse_ = wanted_error > tolerated * best_error ? frames_too_coarse_ + 1 : 0;
     const int patience = wanted_ms > kMuchTooLong * limit_ms ? kPatienceWhenMuchTooLong : kPatienceWhenTooLong;
     const bool too_long = frames_too_long_ >= patience;
     const bool too_coarse = frames_too_coarse_ >= kPatienceWhenTooCoarse;

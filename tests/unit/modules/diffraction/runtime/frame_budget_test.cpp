@@ -299,6 +299,16 @@ TEST(RungChooser, LetsNoMoreFadeAtOnceThanTheTimeAllows) {
     EXPECT_EQ(machine.changing(), 0);
 }
 
+TEST(RungChooser, LeavesNothingCoarseWhereTimeIsAmple) {
+    std::vector<ObjectRungs> objects{{.options = {{.error = 100.0, .ms = 1.0}}},
+                                     {.options = {{.error = 0.2, .ms = 1.0}, {.error = 0.1, .ms = 2.0}}}};
+    RungChooser chooser;
+    for (int frame = 0; frame < 8; ++frame) chooser.choose(objects, 3.3);
+    EXPECT_EQ(objects[1].wanted, 0U);
+    for (int frame = 0; frame < 8; ++frame) chooser.choose(objects, 10.0);
+    EXPECT_EQ(objects[1].wanted, 1U);
+}
+
 /// A budget that nothing meets does not make objects coarse for a saving that is none.
 TEST(RungChooser, TakesATimeThatCannotBeKeptForALittleMoreThanTheLeast) {
     std::vector<ObjectRungs> objects{{.options = {{.error = 9.0, .ms = 1.0}, {.error = 1.0, .ms = 1.005}}},
