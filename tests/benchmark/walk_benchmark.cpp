@@ -61,9 +61,6 @@ struct Walk {
 Walk walk_through(Rooms& rooms, const WalkOptions& options, float door_m, double white) {
     const gpu::Framebuffer target(
         {.width = options.size.x, .height = options.size.y, .colours = {gpu::Format::RGBA32F}, .depth = true});
-    const auto display = [&](float value) {
-        return 255.0 * std::pow(std::clamp(static_cast<double>(value) / white, 0.0, 1.0), 1.0 / 2.2);
-    };
     Walk walk;
     std::vector<double> times;
     std::vector<double> carried_steps;
@@ -87,7 +84,7 @@ Walk walk_through(Rooms& rooms, const WalkOptions& options, float door_m, double
             const bool carried = std::abs(2 * column - options.size.x) < options.size.y / 2 &&
                                  std::abs(2 * row - options.size.y) < options.size.y / 5;
             for (int c = 0; c < 3; ++c) {
-                const double step = std::abs(display(pixels[i][c]) - display(before[i][c]));
+                const double step = std::abs(display_value(pixels[i][c], white) - display_value(before[i][c], white));
                 walk.largest_step = std::max(walk.largest_step, step);
                 if (!carried) continue;
                 squares += step * step;
@@ -116,10 +113,7 @@ void walk_through_doors(const WalkOptions& options) {
         const gpu::Framebuffer target(
             {.width = options.size.x, .height = options.size.y, .colours = {gpu::Format::RGBA32F}, .depth = true});
         one.draw_ms(camera_at(door_m - 1.0F, {1.0F, 0.0F, 0.0F}), target);
-        double mean = 0.0;
-        const Pixels pixels = target.read_rgba_float();
-        for (const glm::vec4& pixel : pixels) mean += static_cast<double>(pixel.y);
-        const double white = mean / static_cast<double>(pixels.size()) / 0.18;
+        const double white = white_of(target.read_rgba_float());
         std::map<std::string, Walk> walks;
         for (const auto& [name, rooms] : {std::pair("one", &one), std::pair("many", &many)}) {
             rooms->carry_gratings();

@@ -28,20 +28,17 @@ struct Measured {
     std::map<std::string, double> samples;  ///< by representation
 };
 
-/// The largest change of a display value since the last frame, in 1/255. The mean of a picture is shown as .18.
+/// The largest change of a display value since the last frame, in 1/255.
 class StepMeter {
  public:
     double take(const gpu::Framebuffer& target) {
         std::vector<glm::vec4> pixels = target.read_rgba_float();
-        double mean = 0.0;
-        for (const glm::vec4& pixel : pixels) mean += static_cast<double>(pixel.y) / static_cast<double>(pixels.size());
-        const auto display = [&](float value) {
-            return 255.0 * std::pow(std::clamp(0.18 * static_cast<double>(value) / mean, 0.0, 1.0), 1.0 / 2.2);
-        };
+        const double white = white_of(pixels);
         double largest = 0.0;
         for (std::size_t i = 0; i < before_.size(); ++i)
             for (int c = 0; c < 3; ++c)
-                largest = std::max(largest, std::abs(display(pixels[i][c]) - display(before_[i][c])));
+                largest = std::max(largest,
+                                   std::abs(display_value(pixels[i][c], white) - display_value(before_[i][c], white)));
         before_ = std::move(pixels);
         return largest;
     }

@@ -1,6 +1,8 @@
 #include "tests/benchmark/walk_rooms.h"
 
+#include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <glm/gtc/quaternion.hpp>
 #include <map>
 #include <memory>
@@ -35,6 +37,16 @@ scene::Camera camera_at_stop(int stop, int stops) {
                                      glm::vec3(0, -0.15F, 1)};
     const float part = (static_cast<float>(stop) + 0.5F) / static_cast<float>(stops);
     return camera_at(kBegin_m + (kEnd_m - kBegin_m) * part, kForward[static_cast<std::size_t>(stop) % kForward.size()]);
+}
+
+double white_of(std::span<const glm::vec4> pixels) {
+    double sum = 0.0;
+    for (const glm::vec4& pixel : pixels) sum += static_cast<double>(pixel.y);
+    return sum / static_cast<double>(pixels.size()) / 0.18;
+}
+
+double display_value(float radiance, double white) {
+    return 255.0 * std::pow(std::clamp(static_cast<double>(radiance) / white, 0.0, 1.0), 1.0 / 2.2);
 }
 
 Rooms::Rooms(const WalkOptions& options, std::optional<std::size_t> one_probe)

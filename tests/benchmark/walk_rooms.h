@@ -5,7 +5,9 @@
 #include <filesystem>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "engine/ecs/world.h"
@@ -35,6 +37,11 @@ struct WalkOptions {
 scene::Camera camera_at(float x_m, const glm::vec3& forward);
 /// At a stop of `stops`, evenly along the path; the views of four stops turn once about.
 scene::Camera camera_at_stop(int stop, int stops);
+
+/// The radiance that is shown as white where the mean of a picture is shown as .18.
+double white_of(std::span<const glm::vec4> pixels);
+/// 0 to 255.
+double display_value(float radiance, double white);
 
 /// The rooms, under a probe for each box or, as if there was no box, under one.
 class Rooms {

@@ -136,24 +136,6 @@ std::vector<std::size_t> assign_rungs(std::span<const std::vector<RungOption>> o
 
 namespace {
 
-constexpr double kAim = 0.98;  // of the time, so that noise rarely exceeds it
-
-struct Bounds {
-    double fixed_ms = 0.0;    ///< of the objects that fade, when they have
-    double fastest_ms = 0.0;  ///< the least that the others can take
-};
-
-Bounds bounds_of(std::span<const ObjectRungs> objects) {
-    Bounds bounds;
-    for (const ObjectRungs& object : objects) {
-        if (object.fades)
-            bounds.fixed_ms += object.options[object.wanted].ms;
-        else
-            bounds.fastest_ms += std::ranges::min(object.options, {}, &RungOption::ms).ms;
-    }
-    return bounds;
-}
-
 /// From the rung that an object shows to another, or to the same.
 struct Change {
     ObjectRungs* object;
@@ -193,26 +175,33 @@ int fade_frames(double relative_error) {
 }
 
 void RungChooser::choose(std::span<ObjectRungs> objects, double ms) {
+    constexpr double kAim = 0.98;  // of the time, so that noise rarely exceeds it
     constexpr double kNearlyFastest = 1.02;
+    constexpr double kMuchTooLong = 1.25;
     constexpr double kTooCoarse = 1.0 / 0.9;
     constexpr double kAmple = 0.8;               // of the time: what takes less changes for any gain
     constexpr int kPatienceWhenMuchTooLong = 2;  // frames
     constexpr int kPatienceWhenTooLong = 4;
     constexpr int kPatienceWhenTooCoarse = 8;
 
-    const Bounds bounds = bounds_of(objects);
-    const double limit_ms = std::max(ms, (bounds.fixed_ms + kNearlyFastest * bounds.fastest_ms) / kAim);
+    double fixed_ms = 0.0;    // of the objects that fade, when they have
+    double fastest_ms = 0.0;  // the least that the others can take
     std::vector<std::vector<RungOption>> options;
     std::vector<Change> changes;  // in the order of `options`
     for (ObjectRungs& object : objects) {
-        if (object.fades) continue;
+        if (object.fades) {
+            fixed_ms += object.options[object.wanted].ms;
+            continue;
+        }
+        fastest_ms += std::ranges::min(object.options, {}, &RungOption::ms).ms;
         options.push_back(object.options);
         changes.push_back({&object, 0});
     }
-    const std::vector<std::size_t> best = assign_rungs(options, kAim * limit_ms - bounds.fixed_ms);
-    double wanted_ms = bounds.fixed_ms;
+    const double limit_ms = std::max(ms, (fixed_ms + kNearlyFastest * fastest_ms) / kAim);
+    const std::vector<std::size_t> best = assign_rungs(options, kAim * limit_ms - fixed_ms);
+    double wanted_ms = fixed_ms;
     double wanted_error = 0.0;
-    double best_ms = bounds.fixed_ms;
+    double best_ms = fixed_ms;
     double best_error = 0.0;
     for (std::size_t i = 0; i < best.size(); ++i) {
         changes[i].to = best[i];
@@ -236,13 +225,10 @@ void RungChooser::choose(std::span<ObjectRungs> objects, double ms) {
     begin_better(objects, std::move(changes), limit_ms);
 }
 
-double DrawCosts::work_of_samples(std::uint64_t kind, const DrawSize& size) const {
-    const auto found = prices_.find(kind);
-    return found == prices_.end() ? 0.0 : found->second * size.samples;
-}
-
 double DrawCosts::work(std::uint64_t kind, const DrawSize& size) const {
-    return prices_.contains(kind) ? work_of_samples(kind, size) + price_of_vertex_ * size.vertices : 0.0;
+    const auto found = prices_.find(kind);
+    if (found == prices_.end()) return 0.0;
+    return found->second * size.samples + price_of_vertex_ * size.vertices;
 }
 
 void DrawCosts::learn(std::span<const Run> frame) {
@@ -271,9 +257,10 @@ void DrawCosts::learn(std::span<const Run> frame) {
     ms_per_unit_ += weight * (middle - ms_per_unit_);
     for (const Run& run : frame) {
         const auto found = prices_.find(run.kind);
+        if (found == prices_.end() || run.size.samples < kFewSamples) continue;
+        const double of_samples = found->second * run.size.samples;
         const double of_vertices = price_of_vertex_ * run.size.vertices;
-        const double of_samples = work_of_samples(run.kind, run.size);
-        if (found == prices_.end() || run.size.samples < kFewSamples || of_samples < of_vertices) continue;
+        if (of_samples < of_vertices) continue;
         const double ratio = std::clamp((run.ms / now - of_vertices) / of_samples, 0.25, 4.0);
         found->second *= std::pow(ratio, kOfPrice);
     }

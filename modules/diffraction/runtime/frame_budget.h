@@ -35,9 +35,8 @@ struct RecordedRung {
     std::size_t rung = std::numeric_limits<std::size_t>::max();  ///< from 0, the cheapest; the best one if it has fewer
 };
 
-/// Times, as multiples of a budget, from which on rungs become cheaper, and with less patience.
+/// The time, as a multiple of a budget, from which on rungs become cheaper.
 inline constexpr double kTooLong = 1.05;
-inline constexpr double kMuchTooLong = 1.25;
 
 /// Frames in which one rung fades into another: as many as their difference needs, so that nothing jumps.
 inline constexpr int kLeastFadeFrames = 7;
@@ -107,7 +106,6 @@ class DrawCosts {
 
  private:
     /// In units of price; 0 for an unknown kind.
-    double work_of_samples(std::uint64_t kind, const DrawSize& size) const;
     double work(std::uint64_t kind, const DrawSize& size) const;
 
     double price_of_vertex_;

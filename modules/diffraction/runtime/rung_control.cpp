@@ -66,13 +66,13 @@ void RungControl::take(ecs::World& world, std::span<const gpu::MeteredRun> runs)
         DrawCosts::Run& total = taken.emplace_back(DrawCosts::Run{.kind = run.kind, .ms = run.gpu_ms});
         ms += run.gpu_ms;
         for (const gpu::MeteredRun::Draw& draw : run.draws) {
+            const auto samples = static_cast<double>(draw.samples);
+            total.size.samples += samples;
             const ecs::Entity entity = render::entity_of(draw.object);
             DrawnRung* drawn = world.find<DrawnRung>(entity);
             if (drawn == nullptr) continue;
-            const auto samples = static_cast<double>(draw.samples);
             drawn->size = {.samples = std::max(drawn->size.samples, samples),
                            .vertices = static_cast<double>(world.get<SurfaceState>(entity).mesh->positions.size())};
-            total.size.samples += samples;
             total.size.vertices += drawn->size.vertices;
         }
     }
