@@ -121,11 +121,8 @@ namespace {
 /// σ of level 0. The sun on a grating of 700 nm is 1.4 nm wide.
 constexpr double kNarrowest_nm = 1.0;
 
-/// What a look-up adds to a level's variance, in squares of a column's width: the mean over a column 1/12, and linear
-/// interpolation, which is above f by f''/12 on average, 1/6.
-constexpr double kColumnVariance = 0.25;
-/// The variance of a stencil of one column.
-constexpr double kLeastVariance = 1e-4;
+/// Levels are summed in columns as wide as this fraction of their deviation, or less.
+constexpr double kWidestColumn = 1.0 / 6.0;
 
 /// Least 2 − |u|, below which no order is left.
 constexpr double kLeastViews = 1e-3;
@@ -139,17 +136,70 @@ constexpr double kWidestDeviation = 0.2;
 constexpr double kColumn_nm = 2.0;
 constexpr int kFewestColumns = 1024;
 
-/// Weights of a normal distribution in cells of width `step`, normalised: of cells 0, ±1, ±2, … from its centre.
-std::vector<double> stencil(double deviation, double step) {
+/// Weights with the variance of a normal distribution, normalised: of columns 0, ±1, ±2, … from its centre.
+/// `deviation`: in columns.
+std::vector<double> stencil(double deviation) {
+    constexpr double kFewSamples = 0.6;  // below, samples of the distribution have another variance
+    if (deviation < kFewSamples) return {1.0 - deviation * deviation, 0.5 * deviation * deviation};
     std::vector<double> weights;
     double sum = 0.0;
-    for (int i = 0; i * step <= kBlurReach * deviation; ++i) {
-        const double scale = 1.0 / (std::sqrt(2.0) * deviation);
-        weights.push_back(0.5 * (std::erf((i + 0.5) * step * scale) - std::erf((i - 0.5) * step * scale)));
+    for (int i = 0; i <= kBlurReach * deviation; ++i) {
+        weights.push_back(std::exp(-0.5 * i * i / (deviation * deviation)));
         sum += (i == 0 ? 1.0 : 2.0) * weights.back();
     }
     for (double& weight : weights) weight /= sum;
     return weights;
+}
+
+/// The width of the wide columns in which a level of this deviation is summed; both in columns.
+std::size_t wide_column(double deviation) {
+    return static_cast<std::size_t>(std::max(1.0, kWidestColumn * deviation));
+}
+
+/// What a look-up adds to a level's variance, in squares of a column's width: means over a column 1/12, those over a
+/// wide column, and linear interpolation between columns, which is above f by f''/12 on average, 1/6.
+double column_variance(std::size_t width) {
+    return static_cast<double>(width * width - 1) / 6.0 + 0.25;
+}
+
+/// Means around 0, `width`, 2 `width`, … under triangles of that half-width, which leave little of what would be an
+/// alias.
+std::vector<glm::dmat3> in_wide_columns(const std::vector<glm::dmat3>& columns, std::size_t width) {
+    if (width == 1) return columns;
+    std::vector<glm::dmat3> means;
+    for (std::size_t centre = 0; centre < columns.size() + width; centre += width) {
+        glm::dmat3 sum(0.0);
+        for (std::size_t i = std::max(centre, width) - width; i < std::min(centre + width, columns.size()); ++i)
+            sum += static_cast<double>(width - std::max(centre, i) + std::min(centre, i)) * columns[i];
+        means.push_back(sum / static_cast<double>(width * width));
+    }
+    return means;
+}
+
+/// The sums of `values`, which are 0 beyond their ends, under a symmetric stencil; those before `begin` and from `end`
+/// on are left 0.
+std::vector<glm::dmat3> convolve(const std::vector<glm::dmat3>& values, std::span<const double> weights,
+                                 std::size_t begin, std::size_t end) {
+    std::vector<glm::dmat3> sums(values.size(), glm::dmat3(0.0));
+    for (std::size_t i = begin; i < std::min(end, values.size()); ++i) {
+        sums[i] = weights[0] * values[i];
+        for (std::size_t j = 1; j < weights.size(); ++j) {
+            if (i >= j) sums[i] += weights[j] * values[i - j];
+            if (i + j < values.size()) sums[i] += weights[j] * values[i + j];
+        }
+    }
+    return sums;
+}
+
+/// The cubic through the four values of wide columns around a column; 0 beyond their ends.
+glm::dmat3 interpolated(const std::vector<glm::dmat3>& wide, std::size_t width, std::size_t column) {
+    const std::size_t first = column / width;
+    if (column % width == 0) return wide[first];
+    const double t = static_cast<double>(column % width) / static_cast<double>(width);
+    const auto value = [&](std::size_t i) { return i < wide.size() ? wide[i] : glm::dmat3(0.0); };
+    const glm::dmat3 before = first == 0 ? glm::dmat3(0.0) : wide[first - 1];
+    return -t * (t - 1.0) * (t - 2.0) / 6.0 * before + (t + 1.0) * (t - 1.0) * (t - 2.0) / 2.0 * value(first) -
+           (t + 1.0) * t * (t - 2.0) / 2.0 * value(first + 1) + (t + 1.0) * t * (t - 1.0) / 6.0 * value(first + 2);
 }
 
 }  // namespace
@@ -202,41 +252,49 @@ BlurredKernel blur(const KernelTable& kernel, double pitch_nm, double widest_nm,
     const double step = (blurred.end_nm - blurred.begin_nm) / (columns - 1);
     blurred.views = kernel.views == 1 ? 1 : kBlurredViews;
     const auto levels = static_cast<std::size_t>(blurred.levels);
+    const auto views = static_cast<std::size_t>(blurred.views);
     const auto x_of = [&](std::size_t column) { return blurred.begin_nm + static_cast<double>(column) * step; };
-    std::vector<glm::dmat3> means(size * static_cast<std::size_t>(kernel.views));  // by the kernel's views
-    parallel_for(static_cast<std::size_t>(kernel.views), [&](std::size_t view) {
+    std::vector<std::vector<glm::dmat3>> means(static_cast<std::size_t>(kernel.views));  // by the kernel's views
+    parallel_for(means.size(), [&](std::size_t view) {
         const double v_g = EfficiencyGrid::view_at(static_cast<int>(view));
         for (std::size_t i = 0; i < size; ++i)
-            means[view * size + i] = kernel.average(x_of(i) - 0.5 * step, x_of(i) + 0.5 * step, v_g);
+            means[view].push_back(kernel.average(x_of(i) - 0.5 * step, x_of(i) + 0.5 * step, v_g));
     });
-    blurred.values.resize(static_cast<std::size_t>(blurred.views) * levels * size);
-    parallel_for(levels * static_cast<std::size_t>(blurred.views), [&](std::size_t row) {
-        const std::size_t level = row % levels;
-        const double deviation = deviation_of(static_cast<int>(level));
-        const double left = deviation * deviation - kColumnVariance * step * step;
-        const std::vector<double> weights = stencil(std::sqrt(std::max(left, kLeastVariance * step * step)), step);
-        const auto sum_at = [&](std::size_t view, std::size_t i) {
-            const glm::dmat3* const from = means.data() + view * size;
-            glm::dmat3 sum = weights[0] * from[i];
-            for (std::size_t j = 1; j < weights.size(); ++j) {
-                if (i >= j) sum += weights[j] * from[i - j];
-                if (i + j < size) sum += weights[j] * from[i + j];
-            }
-            return sum;
-        };
-        const std::size_t view = row / levels;
+    /// The kernel's views between which a column's value for a view lies.
+    const auto cell_of = [&](std::size_t column, std::size_t view) -> EfficiencyGrid::ViewCell {
+        if (views == 1) return {};
+        const double u = x_of(column) / pitch_nm;
         const double coordinate = 2.0 * static_cast<double>(view) / (kBlurredViews - 1) - 1.0;
-        for (std::size_t i = 0; i < size; ++i) {
-            glm::mat3& value = blurred.values[row * size + i];
-            if (blurred.views == 1) {
-                value = glm::mat3(sum_at(0, i));
-                continue;
+        return EfficiencyGrid::view_cell(0.5 * (u + coordinate * std::max(2.0 - std::abs(u), 0.0)));
+    };
+    struct Range {
+        std::size_t begin;
+        std::size_t end;
+    };
+    std::vector<Range> read(means.size(), Range{size, 0});  // columns, by the kernel's views
+    for (std::size_t i = 0; i < size; ++i)
+        for (std::size_t view = cell_of(i, 0).first; view < std::min(cell_of(i, views - 1).first + 2, read.size());
+             ++view)
+            read[view] = {std::min(read[view].begin, i), i + 1};
+    blurred.values.resize(views * levels * size);
+    parallel_for(levels, [&](std::size_t level) {
+        const double deviation = deviation_of(static_cast<int>(level)) / step;
+        const std::size_t width = wide_column(deviation);
+        const double left = std::max(0.0, deviation * deviation - column_variance(width));
+        const std::vector<double> weights = stencil(std::sqrt(left) / static_cast<double>(width));
+        std::vector<std::vector<glm::dmat3>> sums;
+        for (std::size_t view = 0; view < means.size(); ++view)
+            sums.push_back(convolve(in_wide_columns(means[view], width), weights,
+                                    std::max(read[view].begin / width, std::size_t{1}) - 1,
+                                    read[view].end / width + 3));
+        for (std::size_t view = 0; view < views; ++view)
+            for (std::size_t i = 0; i < size; ++i) {
+                const EfficiencyGrid::ViewCell cell = cell_of(i, view);
+                glm::dmat3 value = interpolated(sums[cell.first], width, i);
+                if (cell.weight > 0.0)
+                    value = (1.0 - cell.weight) * value + cell.weight * interpolated(sums[cell.first + 1], width, i);
+                blurred.values[(view * levels + level) * size + i] = glm::mat3(value);
             }
-            const double u = x_of(i) / pitch_nm;
-            const EfficiencyGrid::ViewCell cell =
-                EfficiencyGrid::view_cell(0.5 * (u + coordinate * std::max(2.0 - std::abs(u), 0.0)));
-            value = glm::mat3((1.0 - cell.weight) * sum_at(cell.first, i) + cell.weight * sum_at(cell.first + 1, i));
-        }
     });
     return blurred;
 }

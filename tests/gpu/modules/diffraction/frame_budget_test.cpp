@@ -35,9 +35,8 @@ CookedMaterial ladder_material() {
 /// Two discs side by side that face the camera.
 class FrameBudgets : public test::GlTest {
  protected:
-    /// `map_wait`: for how long a first frame waits for coarse maps.
-    explicit FrameBudgets(std::chrono::milliseconds map_wait = std::chrono::hours(1)) {
-        register_module(renderer_, {.map_pace = MapPace::Incremental, .map_wait = map_wait});
+    FrameBudgets() {
+        register_module(renderer_, {.map_pace = MapPace::Incremental, .map_wait = std::chrono::hours(1)});
         renderer_.set_probe(lighting::build_light_probe(
             smooth_probe(), {.bands = 8, .key_lights = 4, .light_face = 32, .prefilter = {.face_size = 32}}));
         renderer_.use_key_lights(true);
@@ -156,34 +155,43 @@ TEST_F(FrameBudgets, RungsFadeIntoEachOther) {
     EXPECT_EQ(renderer_.report().programs, programs) << "all rungs' programs were linked with the first";
 }
 
-class FrameBudgetsWithoutWaits : public FrameBudgets {
- protected:
-    FrameBudgetsWithoutWaits() : FrameBudgets(std::chrono::milliseconds(0)) {}
+/// The ladder's material, drawn by key lights alone, with a map that is there when the test says so.
+class LateMap final : public GpuMaterial {
+ public:
+    explicit LateMap(const bool& filled)
+        : GpuMaterial(std::make_shared<const CookedMaterial>(ladder_material()), glm::dmat3(1.0)), filled_(filled) {}
+
+    void update(const SurfaceObject&, SurfaceLight&, SurfaceState& state) const override {
+        state.without_map = !filled_;
+    }
+
+ private:
+    void describe(const SurfaceState&, gpu::ProgramDesc&) const override {}
+    void bind_tables(const gpu::Program&, const SurfaceState&) const override {}
+
+    const bool& filled_;
 };
 
-TEST_F(FrameBudgetsWithoutWaits, AFadeWaitsForTheMapOfItsRung) {
+TEST_F(FrameBudgets, AFadeWaitsForTheMapOfItsRung) {
+    bool filled = false;
+    const auto material = std::make_shared<const LateMap>(filled);
+    for (const ecs::Entity disc : discs_) world_.get<DiffractionSurface>(disc).material = material;
     set_budget(1e-9);
     const std::vector<glm::vec4> cheapest = settle();
     set_budget(1e9);
-    std::array<bool, 2> lacked_map{};  // in the frame before
+    const auto drawn = [&](std::size_t disc) -> const DrawnRung& { return world_.get<DrawnRung>(discs_[disc]); };
     int frames_without = 0;
-    for (int frame = 0; frame < 300 && rung(0) == 0; ++frame) {
+    for (int frame = 0; frame < 300 && frames_without < 16; ++frame) {
         const std::vector<glm::vec4> picture = draw();
-        bool fades = false;
-        for (std::size_t i = 0; i < discs_.size(); ++i) {
-            const SurfaceState* next = world_.get<SurfaceState>(discs_[i]).second.get();
-            if (world_.get<DrawnRung>(discs_[i]).fade_frame > 0) {
-                fades = true;
-                EXPECT_FALSE(lacked_map[i]) << frame;
-            }
-            lacked_map[i] = next != nullptr && next->without_map;
-            if (lacked_map[i]) ++frames_without;
-        }
-        if (!fades && rung(0) == 0 && rung(1) == 0) {
-            EXPECT_LT(difference(picture, cheapest), 1e-6F);
-        }
+        if (drawn(0).changes() && drawn(1).changes()) ++frames_without;
+        for (const std::size_t disc : {0U, 1U}) ASSERT_EQ(drawn(disc).fade_frame, 0) << frame;
+        ASSERT_LT(difference(picture, cheapest), 1e-6F) << frame;
     }
-    EXPECT_GT(frames_without, 0);
+    EXPECT_EQ(frames_without, 16);
+    filled = true;
+    for (int frame = 0; frame < 2; ++frame) draw();
+    EXPECT_EQ(drawn(0).fade_frame, 1);
+    EXPECT_EQ(drawn(1).fade_frame, 1);
     settle();
     EXPECT_EQ(rung(0), 2U);
     EXPECT_EQ(rung(1), 2U);
