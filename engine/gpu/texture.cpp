@@ -18,9 +18,10 @@ struct FormatFacts {
     int bytes;
 };
 
-constexpr std::array<FormatFacts, 11> kFormats = {{{Format::RGBA8, GL_RGBA8, 4},
+constexpr std::array<FormatFacts, 12> kFormats = {{{Format::RGBA8, GL_RGBA8, 4},
                                                    {Format::SRGB8_A8, GL_SRGB8_ALPHA8, 4},
                                                    {Format::RGB10_A2, GL_RGB10_A2, 4},
+                                                   {Format::RGB9_E5, GL_RGB9_E5, 4},
                                                    {Format::RGBA16, GL_RGBA16, 8},
                                                    {Format::RG16F, GL_RG16F, 4},
                                                    {Format::RGBA16F, GL_RGBA16F, 8},
@@ -188,9 +189,11 @@ void Texture::upload(std::span<const std::uint16_t> data, TextureSlice slice) {
 }
 
 void Texture::upload(std::span<const std::uint32_t> data, TextureSlice slice) {
-    ROWLAND_CHECK(desc_.format == Format::RGB10_A2, "packed texels are RGB10_A2's");
+    const bool shares_exponent = desc_.format == Format::RGB9_E5;
+    ROWLAND_CHECK(shares_exponent || desc_.format == Format::RGB10_A2, "the format has no packed texels");
     ROWLAND_CHECK_OP(data.size(), ==, texels(slice));
-    upload_area(data.data(), GL_RGBA, GL_UNSIGNED_INT_2_10_10_10_REV, slice);
+    upload_area(data.data(), shares_exponent ? GL_RGB : GL_RGBA,
+                shares_exponent ? GL_UNSIGNED_INT_5_9_9_9_REV : GL_UNSIGNED_INT_2_10_10_10_REV, slice);
 }
 
 void Texture::upload(std::span<const glm::vec3> data, TextureSlice slice) {

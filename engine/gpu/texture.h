@@ -18,6 +18,7 @@ enum class Format {
     RGBA8,
     SRGB8_A8,
     RGB10_A2,
+    RGB9_E5,
     RGBA16,
     RG16F,
     RGBA16F,

@@ -138,16 +138,17 @@ constexpr int kFewestColumns = 1024;
 
 /// Weights with the variance of a normal distribution, normalised: of columns 0, ±1, ±2, … from its centre.
 /// `deviation`: in columns.
-std::vector<double> stencil(double deviation) {
+std::vector<float> stencil(double deviation) {
     constexpr double kFewSamples = 0.6;  // below, samples of the distribution have another variance
-    if (deviation < kFewSamples) return {1.0 - deviation * deviation, 0.5 * deviation * deviation};
-    std::vector<double> weights;
-    double sum = 0.0;
+    const double variance = deviation * deviation;
+    if (deviation < kFewSamples) return {static_cast<float>(1.0 - variance), static_cast<float>(0.5 * variance)};
+    std::vector<float> weights;
+    float sum = 0.0F;
     for (int i = 0; i <= kBlurReach * deviation; ++i) {
-        weights.push_back(std::exp(-0.5 * i * i / (deviation * deviation)));
-        sum += (i == 0 ? 1.0 : 2.0) * weights.back();
+        weights.push_back(static_cast<float>(std::exp(-0.5 * i * i / variance)));
+        sum += (i == 0 ? 1.0F : 2.0F) * weights.back();
     }
-    for (double& weight : weights) weight /= sum;
+    for (float& weight : weights) weight /= sum;
     return weights;
 }
 
@@ -162,44 +163,56 @@ double column_variance(std::size_t width) {
     return static_cast<double>(width * width - 1) / 6.0 + 0.25;
 }
 
+using Columns = std::vector<glm::mat3>;
+
+/// Columns from `begin` to before `end`.
+struct ColumnRange {
+    std::size_t begin;
+    std::size_t end;
+};
+
 /// Means around 0, `width`, 2 `width`, … under triangles of that half-width, which leave little of what would be an
 /// alias.
-std::vector<glm::dmat3> in_wide_columns(const std::vector<glm::dmat3>& columns, std::size_t width) {
+Columns in_wide_columns(const Columns& columns, std::size_t width) {
     if (width == 1) return columns;
-    std::vector<glm::dmat3> means;
+    Columns means;
     for (std::size_t centre = 0; centre < columns.size() + width; centre += width) {
-        glm::dmat3 sum(0.0);
+        glm::mat3 sum(0.0F);
         for (std::size_t i = std::max(centre, width) - width; i < std::min(centre + width, columns.size()); ++i)
-            sum += static_cast<double>(width - std::max(centre, i) + std::min(centre, i)) * columns[i];
-        means.push_back(sum / static_cast<double>(width * width));
+            sum += static_cast<float>(width - std::max(centre, i) + std::min(centre, i)) * columns[i];
+        means.push_back(sum / static_cast<float>(width * width));
     }
     return means;
 }
 
-/// The sums of `values`, which are 0 beyond their ends, under a symmetric stencil; those before `begin` and from `end`
-/// on are left 0.
-std::vector<glm::dmat3> convolve(const std::vector<glm::dmat3>& values, std::span<const double> weights,
-                                 std::size_t begin, std::size_t end) {
-    std::vector<glm::dmat3> sums(values.size(), glm::dmat3(0.0));
-    for (std::size_t i = begin; i < std::min(end, values.size()); ++i) {
-        sums[i] = weights[0] * values[i];
+/// The sums of `values`, which are 0 beyond their ends, under a symmetric stencil; 0 outside `range`.
+Columns convolve(const Columns& values, std::span<const float> weights, const ColumnRange& range) {
+    Columns sums(values.size(), glm::mat3(0.0F));
+    for (std::size_t i = range.begin; i < std::min(range.end, values.size()); ++i) {
+        glm::mat3 sum = weights[0] * values[i];
         for (std::size_t j = 1; j < weights.size(); ++j) {
-            if (i >= j) sums[i] += weights[j] * values[i - j];
-            if (i + j < values.size()) sums[i] += weights[j] * values[i + j];
+            if (i >= j) sum += weights[j] * values[i - j];
+            if (i + j < values.size()) sum += weights[j] * values[i + j];
         }
+        sums[i] = sum;
     }
     return sums;
 }
 
-/// The cubic through the four values of wide columns around a column; 0 beyond their ends.
-glm::dmat3 interpolated(const std::vector<glm::dmat3>& wide, std::size_t width, std::size_t column) {
-    const std::size_t first = column / width;
-    if (column % width == 0) return wide[first];
-    const double t = static_cast<double>(column % width) / static_cast<double>(width);
-    const auto value = [&](std::size_t i) { return i < wide.size() ? wide[i] : glm::dmat3(0.0); };
-    const glm::dmat3 before = first == 0 ? glm::dmat3(0.0) : wide[first - 1];
-    return -t * (t - 1.0) * (t - 2.0) / 6.0 * before + (t + 1.0) * (t - 1.0) * (t - 2.0) / 2.0 * value(first) -
-           (t + 1.0) * t * (t - 2.0) / 2.0 * value(first + 1) + (t + 1.0) * t * (t - 1.0) / 6.0 * value(first + 2);
+/// The columns of `range` by cubics through the four wide columns around each, which are 0 beyond their ends.
+Columns in_columns(const Columns& wide, std::size_t width, std::size_t size, const ColumnRange& range) {
+    if (width == 1) return wide;
+    Columns columns(size, glm::mat3(0.0F));
+    for (std::size_t i = range.begin; i < range.end; ++i) {
+        const float t = static_cast<float>(i % width) / static_cast<float>(width);
+        const std::array factors{-t * (t - 1.0F) * (t - 2.0F) / 6.0F, (t + 1.0F) * (t - 1.0F) * (t - 2.0F) / 2.0F,
+                                 -(t + 1.0F) * t * (t - 2.0F) / 2.0F, (t + 1.0F) * t * (t - 1.0F) / 6.0F};
+        for (std::size_t j = 0; j < factors.size(); ++j) {
+            const std::size_t from = i / width + j;  // of the column after the wide one
+            if (from > 0 && from <= wide.size()) columns[i] += factors[j] * wide[from - 1];
+        }
+    }
+    return columns;
 }
 
 }  // namespace
@@ -254,46 +267,44 @@ BlurredKernel blur(const KernelTable& kernel, double pitch_nm, double widest_nm,
     const auto levels = static_cast<std::size_t>(blurred.levels);
     const auto views = static_cast<std::size_t>(blurred.views);
     const auto x_of = [&](std::size_t column) { return blurred.begin_nm + static_cast<double>(column) * step; };
-    std::vector<std::vector<glm::dmat3>> means(static_cast<std::size_t>(kernel.views));  // by the kernel's views
+    std::vector<Columns> means(static_cast<std::size_t>(kernel.views));  // by the kernel's views
     parallel_for(means.size(), [&](std::size_t view) {
         const double v_g = EfficiencyGrid::view_at(static_cast<int>(view));
         for (std::size_t i = 0; i < size; ++i)
-            means[view].push_back(kernel.average(x_of(i) - 0.5 * step, x_of(i) + 0.5 * step, v_g));
+            means[view].emplace_back(kernel.average(x_of(i) - 0.5 * step, x_of(i) + 0.5 * step, v_g));
     });
-    /// The kernel's views between which a column's value for a view lies.
-    const auto cell_of = [&](std::size_t column, std::size_t view) -> EfficiencyGrid::ViewCell {
-        if (views == 1) return {};
-        const double u = x_of(column) / pitch_nm;
-        const double coordinate = 2.0 * static_cast<double>(view) / (kBlurredViews - 1) - 1.0;
-        return EfficiencyGrid::view_cell(0.5 * (u + coordinate * std::max(2.0 - std::abs(u), 0.0)));
-    };
-    struct Range {
-        std::size_t begin;
-        std::size_t end;
-    };
-    std::vector<Range> read(means.size(), Range{size, 0});  // columns, by the kernel's views
-    for (std::size_t i = 0; i < size; ++i)
-        for (std::size_t view = cell_of(i, 0).first; view < std::min(cell_of(i, views - 1).first + 2, read.size());
-             ++view)
-            read[view] = {std::min(read[view].begin, i), i + 1};
+    std::vector<EfficiencyGrid::ViewCell> cells(views * size);  // between which of the kernel's views a value lies
+    std::vector<ColumnRange> read(means.size(), ColumnRange{size, 0});  // columns, by the kernel's views
+    for (std::size_t view = 0; view < views; ++view)
+        for (std::size_t i = 0; i < size; ++i) {
+            EfficiencyGrid::ViewCell& cell = cells[view * size + i];
+            if (views > 1) {
+                const double u = x_of(i) / pitch_nm;
+                const double coordinate = 2.0 * static_cast<double>(view) / (kBlurredViews - 1) - 1.0;
+                cell = EfficiencyGrid::view_cell(0.5 * (u + coordinate * std::max(2.0 - std::abs(u), 0.0)));
+            }
+            for (std::size_t j = cell.first; j < std::min(cell.first + 2, read.size()); ++j)
+                read[j] = {std::min(read[j].begin, i), std::max(read[j].end, i + 1)};
+        }
     blurred.values.resize(views * levels * size);
     parallel_for(levels, [&](std::size_t level) {
         const double deviation = deviation_of(static_cast<int>(level)) / step;
         const std::size_t width = wide_column(deviation);
         const double left = std::max(0.0, deviation * deviation - column_variance(width));
-        const std::vector<double> weights = stencil(std::sqrt(left) / static_cast<double>(width));
-        std::vector<std::vector<glm::dmat3>> sums;
-        for (std::size_t view = 0; view < means.size(); ++view)
-            sums.push_back(convolve(in_wide_columns(means[view], width), weights,
-                                    std::max(read[view].begin / width, std::size_t{1}) - 1,
-                                    read[view].end / width + 3));
+        const std::vector<float> weights = stencil(std::sqrt(left) / static_cast<double>(width));
+        std::vector<Columns> smoothed;
+        for (std::size_t view = 0; view < means.size(); ++view) {
+            const auto& [begin, end] = read[view];
+            const ColumnRange wide{std::max(begin / width, std::size_t{1}) - 1, end / width + 3};
+            smoothed.push_back(
+                in_columns(convolve(in_wide_columns(means[view], width), weights, wide), width, size, read[view]));
+        }
         for (std::size_t view = 0; view < views; ++view)
             for (std::size_t i = 0; i < size; ++i) {
-                const EfficiencyGrid::ViewCell cell = cell_of(i, view);
-                glm::dmat3 value = interpolated(sums[cell.first], width, i);
-                if (cell.weight > 0.0)
-                    value = (1.0 - cell.weight) * value + cell.weight * interpolated(sums[cell.first + 1], width, i);
-                blurred.values[(view * levels + level) * size + i] = glm::mat3(value);
+                const auto& [first, weight] = cells[view * size + i];
+                glm::mat3& value = blurred.values[(view * levels + level) * size + i];
+                value = smoothed[first][i];
+                if (weight > 0.0) value += static_cast<float>(weight) * (smoothed[first + 1][i] - value);
             }
     });
     return blurred;

@@ -213,7 +213,8 @@ bool is_even(const KernelTable& kernel) {
     double largest = 0.0;
     double difference = 0.0;
     const double reach = std::max(std::abs(kernel.begin_nm), std::abs(kernel.end_nm));
-    const auto samples = static_cast<int>(kernel.entries());
+    // Neighbouring entries and views differ little.
+    const auto samples = static_cast<int>(kernel.entries()) / (kernel.views == 1 ? 1 : 8);
     for (int i = 1; i <= samples * kernel.views; ++i) {
         const double v_g = kernel.views == 1 ? 0.0 : EfficiencyGrid::view_at((i - 1) / samples);
         const double x_nm = reach * ((i - 1) % samples + 1) / samples;

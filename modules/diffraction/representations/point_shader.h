@@ -29,7 +29,7 @@ struct ShadingCost {
     int multiply_adds_per_pixel = 0;  ///< likewise
     int fetches_per_light = 0;        ///< per pixel and light that is shaded one by one
     int multiply_adds_per_light = 0;  ///< likewise
-    std::size_t table_bytes = 0;      ///< as uploaded; maps that are filled at run time count in full
+    std::size_t table_bytes = 0;      ///< as uploaded; maps that are filled at run time count in full, in half floats
     std::size_t vertex_bytes = 0;     ///< of light, per vertex
 };
 

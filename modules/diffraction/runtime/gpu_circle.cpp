@@ -65,15 +65,19 @@ std::optional<MapTexels> rest_in_layout(const CircleGrid& grid, int charts) {
 }
 
 struct Filling {
-    MaterialKernel material;
+    std::shared_ptr<const CookedMaterial> cooked;
     CircleMapSize full;
+    glm::mat3 xyz_to_working;
 
     FilledMap operator()(const MapInput& input, MapDetail detail, const std::stop_token& stop) const {
         CircleMapSize size = full;
         if (detail == MapDetail::Coarse) size.side = std::min(size.side, kCoarseCircleSide);
-        const CircleMap map = fill_circle_map(*input.texels, material.kernel, material.pitch_nm, size,
-                                              material.zero_order_xyz, material.cover, stop);
+        const Grating& grating = cooked->material.grating;
+        CircleMap map = fill_circle_map(*input.texels, cooked->kernel, grating.pitch_nm, size, cooked->zero_order_xyz,
+                                        grating.cover, stop);
         if (stop.stop_requested()) return {};
+        for (CircleGrid* grid : {&map.terms, &map.remainder})
+            for (glm::vec3& value : grid->xyz) value = xyz_to_working * value;
         return {.texels = terms_in_layout(map.terms, map.charts),
                 .second = rest_in_layout(map.remainder, map.charts),
                 .set_uniforms = [scales = glm::vec2(glm::dvec2(map.terms.scale(), map.remainder.scale()))](
@@ -88,7 +92,7 @@ GpuCircle::GpuCircle(std::shared_ptr<const CookedMaterial> cooked, const CircleT
     : GpuMaterial(std::move(cooked), xyz_to_working),
       size_(tables.size),
       charts_(chart_count(this->cooked()->kernel)),
-      fill_(std::make_shared<const FillMap>(Filling{working_material(), tables.size})) {}
+      fill_(std::make_shared<const FillMap>(Filling{this->cooked(), tables.size, glm::mat3(xyz_to_working)})) {}
 
 void GpuCircle::update(const SurfaceObject& object, SurfaceLight& light, SurfaceState& state) const {
     state.map.update(fill_, {.texels = samples(light)}, object.maps, object.may_wait);

@@ -76,16 +76,47 @@ MapTexels pack(std::span<const std::vector<glm::vec4>> levels, gpu::TextureDesc 
     return packed(levels, desc, sampling);
 }
 
-MapTexels pack_ten_bits(std::span<const glm::vec3> values, gpu::TextureDesc desc, const gpu::Sampling& sampling) {
-    desc.format = gpu::Format::RGB10_A2;
+namespace {
+
+/// The texel of RGB9_E5 for components from 0 to 1.
+std::uint32_t shared_exponent(const glm::vec3& value) {
+    constexpr int kBits = 9;
+    constexpr int kBias = 15;
+    const float largest = std::max({value.x, value.y, value.z});
+    int exponent = std::max(largest > 0.0F ? std::ilogb(largest) + 1 : -kBias, -kBias);
+    if (std::lround(std::ldexp(largest, kBits - exponent)) == 1 << kBits) ++exponent;
+    std::uint32_t texel = static_cast<std::uint32_t>(exponent + kBias) << (3 * kBits);
+    const float scale = std::ldexp(1.0F, kBits - exponent);
+    for (int i = 0; i < 3; ++i) texel |= static_cast<std::uint32_t>(std::lround(scale * value[i])) << (kBits * i);
+    return texel;
+}
+
+/// `texel_of`: of a value that was divided by the map's largest component.
+template <typename TexelOf>
+MapTexels as_words(std::span<const glm::vec3> values, gpu::TextureDesc desc, const gpu::Sampling& sampling,
+                   const TexelOf& texel_of) {
     MapTexels texels{.desc = desc, .sampling = sampling, .scale = largest_component(values)};
-    texels.ten_bits.resize(values.size());
+    texels.words.resize(values.size());
     parallel_for((values.size() + kTexelsPerTask - 1) / kTexelsPerTask, [&](std::size_t task) {
         const std::size_t end = std::min(values.size(), (task + 1) * kTexelsPerTask);
-        for (std::size_t i = task * kTexelsPerTask; i < end; ++i)
-            texels.ten_bits[i] = glm::packUnorm3x10_1x2(glm::vec4(0.5F + 0.5F * values[i] / texels.scale, 1.0F));
+        for (std::size_t i = task * kTexelsPerTask; i < end; ++i) texels.words[i] = texel_of(values[i] / texels.scale);
     });
     return texels;
+}
+
+}  // namespace
+
+MapTexels pack_xyz(std::span<const glm::vec3> values, gpu::TextureDesc desc, const gpu::Sampling& sampling) {
+    desc.format = gpu::Format::RGB9_E5;
+    return as_words(values, desc, sampling,
+                    [](const glm::vec3& value) { return shared_exponent(glm::max(value, 0.0F)); });
+}
+
+MapTexels pack_ten_bits(std::span<const glm::vec3> values, gpu::TextureDesc desc, const gpu::Sampling& sampling) {
+    desc.format = gpu::Format::RGB10_A2;
+    return as_words(values, desc, sampling, [](const glm::vec3& value) {
+        return glm::packUnorm3x10_1x2(glm::vec4(0.5F + 0.5F * value, 1.0F));
+    });
 }
 
 GpuMap::GpuMap(MapTexels texels, std::vector<gpu::Texture>& spare) : texels_(std::move(texels)) {
@@ -113,7 +144,7 @@ bool GpuMap::upload(int slices) {
         const int depth = std::max(1, texels_.desc.depth >> level_);
         const int count = std::min(left, depth - slice_);
         if (texels_.levels.empty())
-            upload_slices(std::span<const std::uint32_t>(texels_.ten_bits), count);
+            upload_slices(std::span<const std::uint32_t>(texels_.words), count);
         else
             upload_slices(std::span<const std::uint16_t>(texels_.levels[level_]), count);
         left -= count;
@@ -124,7 +155,7 @@ bool GpuMap::upload(int slices) {
     }
     if (level_ < levels) return false;
     texels_.levels.clear();
-    texels_.ten_bits = {};
+    texels_.words = std::vector<std::uint32_t>();  // {} would keep the memory
     return true;
 }
 

@@ -16,20 +16,22 @@ namespace rowland::diffraction {
 float largest_component(std::span<const glm::vec3> xyz);
 float largest_component(std::span<const glm::vec4> values);
 
-/// A map of radiance (XYZ) in its texture's layout, divided by its largest component: in fp16, which ends at 65504, or
-/// in 10 bits.
+/// A map in its texture's layout, divided by its largest component.
 struct MapTexels {
     gpu::TextureDesc desc;
     gpu::Sampling sampling;
     float scale = 1.0F;  ///< the largest component
-    /// Halves of each level, four per texel, or texels of RGB10_A2 in ten_bits.
+    /// Halves of each level, four per texel, or the packed texels of one level.
     std::vector<std::vector<std::uint16_t>> levels{};
-    std::vector<std::uint32_t> ten_bits{};
+    std::vector<std::uint32_t> words{};
 };
 
 /// `levels`: values in the order of each level's rows and slices. Uses all cores.
 MapTexels pack(std::span<const std::vector<glm::vec3>> levels, gpu::TextureDesc desc, const gpu::Sampling& sampling);
 MapTexels pack(std::span<const std::vector<glm::vec4>> levels, gpu::TextureDesc desc, const gpu::Sampling& sampling);
+
+/// XYZ as RGB9_E5: nine bits per component, which share their exponent. Negative components become 0.
+MapTexels pack_xyz(std::span<const glm::vec3> values, gpu::TextureDesc desc, const gpu::Sampling& sampling);
 
 /// Values of either sign in ten bits per component, 0 to 1 for −scale to scale: one level, as RGB10_A2.
 MapTexels pack_ten_bits(std::span<const glm::vec3> values, gpu::TextureDesc desc, const gpu::Sampling& sampling);

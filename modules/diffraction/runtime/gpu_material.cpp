@@ -59,7 +59,6 @@ GpuMaterial::GpuMaterial(std::shared_ptr<const CookedMaterial> cooked, const glm
             .metallic = 0.0F,
             .roughness = cooked_->material.base.roughness,
             .passes_light = passes_light(cooked_->material.grating)},
-      xyz_to_working_(xyz_to_working),
       even_kernel_(is_even(cooked_->kernel)),
       key_lights_(cooked_->material.quality.key_lights),
       separate_lights_(key_lights_ > 0 || info(cooked_->tables).is_map),
@@ -73,13 +72,6 @@ GpuMaterial::GpuMaterial(std::shared_ptr<const CookedMaterial> cooked, const glm
     mirror_weight_ = glm::vec3(xyz_to_working * weights.mirror);
     base_weight_ = glm::vec3(xyz_to_working * weights.base);
     reflectance_ = glm::vec3(xyz_to_working * weights.reflected);
-}
-
-MaterialKernel GpuMaterial::working_material() const {
-    return {.kernel = in_space(cooked_->kernel, xyz_to_working_),
-            .pitch_nm = cooked_->material.grating.pitch_nm,
-            .zero_order_xyz = xyz_to_working_ * cooked_->zero_order_xyz,
-            .cover = cooked_->material.grating.cover};
 }
 
 gpu::ProgramDesc GpuMaterial::program(const SurfaceState& state) const {

@@ -16,7 +16,6 @@
 #include "engine/render/material.h"
 #include "engine/scene/mesh.h"
 #include "modules/diffraction/asset/cooked_material.h"
-#include "modules/diffraction/representations/point_shader.h"
 #include "modules/diffraction/runtime/analytic_lights.h"
 #include "modules/diffraction/runtime/groove_map.h"
 #include "modules/diffraction/runtime/map_cache.h"
@@ -96,9 +95,6 @@ class GpuMaterial {
  protected:
     GpuMaterial(std::shared_ptr<const CookedMaterial> cooked, const glm::dmat3& xyz_to_working);
 
-    /// The kernel and order 0 of cooked() in the working space.
-    MaterialKernel working_material() const;
-
     /// The SH and the samples of the light that is not shaded light by light.
     const lighting::ShLight& harmonics(SurfaceLight& light, int bands) const {
         return separate_lights_ ? light.probe_harmonics(bands, key_lights_) : light.whole_harmonics(bands);
@@ -134,7 +130,6 @@ class GpuMaterial {
     glm::vec3 mirror_weight_{0.0F};
     glm::vec3 base_weight_{1.0F};
     glm::vec3 reflectance_{0.0F};
-    glm::dmat3 xyz_to_working_;
     bool even_kernel_;      ///< k(−x) = k(x)
     int key_lights_;        ///< the most that are shaded light by light
     bool separate_lights_;  ///< directional lights are shaded light by light

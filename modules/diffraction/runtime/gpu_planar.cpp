@@ -34,54 +34,62 @@ void set_axes(const gpu::Program& program, const glm::dvec3& e1, const glm::dvec
     program.set("planar_e2", glm::vec3(e2));
 }
 
+/// A map of XYZ under `light`. Where key lights are subtracted from the light, radiance may be negative.
+MapTexels pack_map(const lighting::LightSamples& light, std::vector<glm::vec3> xyz, const gpu::TextureDesc& desc,
+                   const gpu::Sampling& sampling) {
+    const auto is_negative = [](float flux) { return flux < 0.0F; };
+    for (const std::vector<float>* flux : {&light.red, &light.green, &light.blue})
+        if (std::ranges::any_of(*flux, is_negative)) {
+            const std::array levels{std::move(xyz)};
+            return pack(levels, desc, sampling);
+        }
+    return pack_xyz(xyz, desc, sampling);
+}
+
 /// Maps of flat lobe.
 struct FlatFilling {
-    MaterialKernel material;
+    std::shared_ptr<const CookedMaterial> cooked;
     PlanarMapSize full;
 
     FilledMap operator()(const MapInput& input, MapDetail detail, const std::stop_token& stop) const {
         const PlanarMapSize size = detail == MapDetail::Full ? full : coarser(full);
-        PlanarMap map = fill_planar_map(*input.texels, material.kernel, material.pitch_nm, input.normal, size,
-                                        material.zero_order_xyz, material.cover, stop);
-        const std::array levels{std::move(map.xyz)};
+        const Grating& grating = cooked->material.grating;
+        PlanarMap map = fill_planar_map(*input.texels, cooked->kernel, grating.pitch_nm, input.normal, size,
+                                        cooked->zero_order_xyz, grating.cover, stop);
         const auto kind = map.pitch ? gpu::TextureKind::Volume : gpu::TextureKind::Plane;
-        return {
-            .texels = pack(levels, {.kind = kind, .width = map.azimuths, .height = map.views, .depth = map.slices()},
-                           {.filter = gpu::Filter::Linear, .wrap_s = gpu::Wrap::Repeat}),
-            .set_uniforms = [e1 = map.e1, e2 = map.e2, size](const gpu::Program& program) {
-                set_axes(program, e1, e2);
-                if (size.pitch) program.set("pitch_scale_bias", glm::vec2(size.pitch->scale_bias()));
-                program.set("planar_map_half_texel", glm::vec2(0.5 / glm::dvec2(size.azimuths, size.views)));
-            }};
+        return {.texels = pack_map(*input.texels, std::move(map.xyz),
+                                   {.kind = kind, .width = map.azimuths, .height = map.views, .depth = map.slices()},
+                                   {.filter = gpu::Filter::Linear, .wrap_s = gpu::Wrap::Repeat}),
+                .set_uniforms = [e1 = map.e1, e2 = map.e2, size](const gpu::Program& program) {
+                    set_axes(program, e1, e2);
+                    if (size.pitch) program.set("pitch_scale_bias", glm::vec2(size.pitch->scale_bias()));
+                    program.set("planar_map_half_texel", glm::vec2(0.5 / glm::dvec2(size.azimuths, size.views)));
+                }};
     }
 };
 
 /// Volume maps of other lobes.
 struct LobeFilling {
-    struct Level {
-        int azimuths;
-        Lazy<LobeSpectrum> spectrum;
-    };
-    struct Levels {
-        Level coarse;
-        Level full;
-    };
-    Levels all;  ///< of all azimuths
-    Levels one;  ///< of one azimuth
-    glm::dmat3 xyz_to_working;
+    std::shared_ptr<const DiffractionPattern> pattern;
+    LobeMapSize full;
+    Lazy<LobeSpectrum> coarse_slice;  ///< kept: it takes longer than the fill
+    Lazy<LobeSpectrum> slice;
+
+    LobeMap filled(const MapInput& input, MapDetail detail, const std::stop_token& stop) const {
+        const bool coarse = detail == MapDetail::Coarse;
+        if (input.grating)
+            return fill_lobe_slice(*input.texels, coarse ? *coarse_slice : *slice, input.normal, *input.grating);
+        const LobeMapSize size = coarse ? smaller(kCoarseLobeMap, full) : full;
+        return fill_lobe_map(*input.texels, LobeSpectrum(*pattern, size.views), input.normal, size.azimuths, stop);
+    }
 
     FilledMap operator()(const MapInput& input, MapDetail detail, const std::stop_token& stop) const {
-        const Levels& levels_of = input.grating ? one : all;
-        const Level& level = detail == MapDetail::Full ? levels_of.full : levels_of.coarse;
-        LobeMap map = input.grating ? fill_lobe_slice(*input.texels, *level.spectrum, input.normal, *input.grating)
-                                    : fill_lobe_map(*input.texels, *level.spectrum, input.normal, level.azimuths, stop);
+        LobeMap map = filled(input, detail, stop);
         if (stop.stop_requested()) return {};
-        map = in_space(std::move(map), xyz_to_working);
         const LobeMapSize& size = map.size;
         const int depth = slices(size, map.half_turn);
-        const std::array levels{std::move(map.values)};
-        return {.texels = pack(
-                    levels,
+        return {.texels = pack_map(
+                    *input.texels, std::move(map.values),
                     {.kind = gpu::TextureKind::Volume, .width = size.views.g, .height = size.views.h, .depth = depth},
                     {.filter = gpu::Filter::Linear, .wrap_r = map.half_turn ? gpu::Wrap::Clamp : gpu::Wrap::Repeat}),
                 .set_uniforms = [axes = map.axes, size, depth](const gpu::Program& program) {
@@ -93,24 +101,19 @@ struct LobeFilling {
     }
 };
 
-/// Fills the maps of a material's objects: planar_map.glsl. `tables`: of `cooked`; `material`: in the working space.
+/// Fills the maps of a material's objects, in XYZ: planar_map.glsl. `tables`: of `cooked`.
 std::shared_ptr<const FillMap> planar_filling(const std::shared_ptr<const CookedMaterial>& cooked,
-                                              const PlanarTables& tables, const MaterialKernel& material,
-                                              const glm::dmat3& xyz_to_working) {
-    if (!tables.lobe) return std::make_shared<const FillMap>(FlatFilling{material, tables.size});
+                                              const PlanarTables& tables) {
+    if (!tables.lobe) return std::make_shared<const FillMap>(FlatFilling{cooked, tables.size});
     const std::shared_ptr<const DiffractionPattern> pattern(cooked, &tables.lobe->pattern);
-    const auto levels = [&](const LobeMapSize& coarse, const LobeMapSize& full) {
-        const auto level = [&](const LobeMapSize& size) {
-            return LobeFilling::Level{size.azimuths, Lazy<LobeSpectrum>([pattern, views = size.views] {
-                                          return LobeSpectrum(*pattern, views);
-                                      })};
-        };
-        return LobeFilling::Levels{level(smaller(coarse, full)), level(full)};
+    const auto spectrum = [&](const LobeMapSize& size) {
+        return Lazy<LobeSpectrum>([pattern, views = size.views] { return LobeSpectrum(*pattern, views); });
     };
-    const LobeMapSize& size = tables.lobe->size;
-    return std::make_shared<const FillMap>(LobeFilling{.all = levels(kCoarseLobeMap, size),
-                                                       .one = levels(kCoarseLobeSlice, one_azimuth(size)),
-                                                       .xyz_to_working = xyz_to_working});
+    const LobeMapSize slice = one_azimuth(tables.lobe->size);
+    return std::make_shared<const FillMap>(LobeFilling{.pattern = pattern,
+                                                       .full = tables.lobe->size,
+                                                       .coarse_slice = spectrum(smaller(kCoarseLobeSlice, slice)),
+                                                       .slice = spectrum(slice)});
 }
 
 }  // namespace
@@ -121,7 +124,7 @@ GpuPlanar::GpuPlanar(std::shared_ptr<const CookedMaterial> cooked, const PlanarT
       stand_in_([material = this->cooked(), table = tables.stand_in, xyz_to_working] {
           return std::make_unique<const GpuArc>(material, *table, xyz_to_working);
       }),
-      fill_(planar_filling(this->cooked(), tables, working_material(), xyz_to_working)),
+      fill_(planar_filling(this->cooked(), tables)),
       lobe_map_(tables.lobe.has_value()),
       half_turn_(tables.lobe && tables.lobe->pattern.even),
       pitch_axis_(tables.size.pitch.has_value()) {}

@@ -1,6 +1,8 @@
 #include "tests/gpu/modules/diffraction/grating_picture.h"
 
+#include <algorithm>
 #include <glm/geometric.hpp>
+#include <glm/gtc/packing.hpp>
 
 namespace rowland::diffraction {
 
@@ -10,7 +12,25 @@ nlohmann::json material_json(const std::string& grating, const std::string& qual
     return parse_json("{\"grating\":" + grating + ",\"quality\":" + quality + others + "}", "test");
 }
 
+void round_as_stored(std::vector<glm::vec3>& xyz, const lighting::LightSamples& light) {
+    const auto is_negative = [](const std::vector<float>& flux) { return std::ranges::min(flux) < 0.0F; };
+    if (is_negative(light.red) || is_negative(light.green) || is_negative(light.blue)) return;
+    const float largest = largest_component(xyz);
+    for (glm::vec3& value : xyz)
+        value = largest * glm::unpackF3x9_E1x5(glm::packF3x9_E1x5(glm::max(value, 0.0F) / largest));
+}
+
 }  // namespace
+
+PlanarMap as_stored(PlanarMap map, const lighting::LightSamples& light) {
+    round_as_stored(map.xyz, light);
+    return map;
+}
+
+LobeMap as_stored(LobeMap map, const lighting::LightSamples& light) {
+    round_as_stored(map.values, light);
+    return map;
+}
 
 CookedMaterial cook(const std::string& grating, const std::string& quality, const std::string& others) {
     return cook_material(material_json(grating, quality, others), "test");

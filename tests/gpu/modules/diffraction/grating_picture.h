@@ -61,8 +61,16 @@ GratingLight black_light();
 /// Of the picture's maximum: 5e-4 of tables in halves, and 1.5e-3 of the kernel, whose table has more columns on the
 /// CPU. Tables of views change little from texel to texel: positions of 8 bits between them (filter_error.h) add 4e-4.
 inline constexpr double kPictureTolerance = 2e-3;
-/// The same of a map in halves alone.
+/// The same of a map alone, in halves or of values as_stored().
 inline constexpr double kMapTolerance = 5e-4;
+
+/// A map with the values of its texture: those of planar maps are rounded to RGB9_E5, unless light was subtracted.
+PlanarMap as_stored(PlanarMap map, const lighting::LightSamples& light);
+LobeMap as_stored(LobeMap map, const lighting::LightSamples& light);
+template <typename Map>
+Map as_stored(Map map, const lighting::LightSamples& /*light*/) {
+    return map;
+}
 
 /// One triangle with a grating, drawn as XYZ unless a test sets another working space.
 class GratingPicture : public rowland::test::GlTest, protected DrawnTriangle {
@@ -102,6 +110,11 @@ class GratingPicture : public rowland::test::GlTest, protected DrawnTriangle {
             return sample(*shared, ShadingPoint{.view = axes * point.view, .normal = axes[2], .grating = axes[0]});
         };
     }
+    /// The same of a map that is filled from the light.
+    template <typename Map>
+    AtPoint stored_xyz(const Map& map) const {
+        return map_xyz(as_stored(map, *light_.texels));
+    }
     /// What the light's key lights give, and the error that texture units may add. `cooked` must outlive them.
     AtPoint key_lights(const CookedMaterial& cooked) const {
         return [this, &cooked](const Point& point) { return key_light_xyz(cooked, light_.key_lights, point); };
@@ -116,7 +129,7 @@ class GratingPicture : public rowland::test::GlTest, protected DrawnTriangle {
     /// Draws a material whose map is looked up at the vertices, and its key lights at the vertices or at the pixels.
     template <typename Map>
     void expect_map_at_vertices(const CookedMaterial& cooked, const Map& map) {
-        expect_map_at_vertices(cooked, map_xyz(map), map_xyz(filter_error(map)));
+        expect_map_at_vertices(cooked, stored_xyz(map), map_xyz(filter_error(map)));
     }
     void expect_map_at_vertices(const CookedMaterial& cooked, const AtPoint& map_xyz, const AtPoint& map_error);
 
@@ -126,12 +139,12 @@ class GratingPicture : public rowland::test::GlTest, protected DrawnTriangle {
     /// The same of a map alone.
     template <typename Map>
     void expect_map(const Map& map) {
-        expect_drawn(map_xyz(map), map_xyz(filter_error(map)), kMapTolerance);
+        expect_drawn(stored_xyz(map), map_xyz(filter_error(map)), kMapTolerance);
     }
     /// Of a map, and key lights over it.
     template <typename Map>
     void expect_map_and_lights(const CookedMaterial& cooked, const Map& map) {
-        expect_drawn(sum(map_xyz(map), key_lights(cooked)), sum(map_xyz(filter_error(map)), key_lights_error(cooked)));
+        expect_drawn(sum(stored_xyz(map), key_lights(cooked)), sum(map_xyz(filter_error(map)), key_lights_error(cooked)));
     }
 
     /// Largest difference between the picture and `expected` beyond `allowed`, over the picture's largest component.
