@@ -189,11 +189,11 @@ void Texture::upload(std::span<const std::uint16_t> data, TextureSlice slice) {
 }
 
 void Texture::upload(std::span<const std::uint32_t> data, TextureSlice slice) {
-    const bool shares_exponent = desc_.format == Format::RGB9_E5;
-    ROWLAND_CHECK(shares_exponent || desc_.format == Format::RGB10_A2, "the format has no packed texels");
+    const bool has_one_exponent = desc_.format == Format::RGB9_E5;
+    ROWLAND_CHECK(has_one_exponent || desc_.format == Format::RGB10_A2, "the format has no packed texels");
     ROWLAND_CHECK_OP(data.size(), ==, texels(slice));
-    upload_area(data.data(), shares_exponent ? GL_RGB : GL_RGBA,
-                shares_exponent ? GL_UNSIGNED_INT_5_9_9_9_REV : GL_UNSIGNED_INT_2_10_10_10_REV, slice);
+    upload_area(data.data(), has_one_exponent ? GL_RGB : GL_RGBA,
+                has_one_exponent ? GL_UNSIGNED_INT_5_9_9_9_REV : GL_UNSIGNED_INT_2_10_10_10_REV, slice);
 }
 
 void Texture::upload(std::span<const glm::vec3> data, TextureSlice slice) {

@@ -55,8 +55,8 @@ double largest_component(const glm::dmat3& m) {
     return largest;
 }
 
-/// The largest error over levels at least so many columns wide, of each level's largest value. At columns and at views
-/// that are stored: what is between them is interpolated.
+/// The largest error over levels at least so many columns wide, of each level's largest value. At the columns and views
+/// that are stored, without interpolation.
 double largest_error(const KernelTable& table, const BlurredKernel& blurred, double least_columns) {
     const double step = (blurred.end_nm - blurred.begin_nm) / (blurred.columns - 1);
     double worst = 0.0;
