@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <string>
-#include <utility>
+#include <variant>
 
 #include "engine/core/json_schema.h"
 #include "engine/image/image.h"
@@ -30,15 +30,18 @@ std::string read_illuminant_file(cook::Context& context, const std::filesystem::
     return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
-std::pair<ProbeRecipe, ProbeImage> make_probe(cook::Context& context) {
-    const std::string file = context.source().string();
-    ProbeRecipe recipe = parse_probe_recipe(context.read_json(context.source()), file);
+ProbeRecipe read_recipe(cook::Context& context) {
+    ProbeRecipe recipe = parse_probe_recipe(context.read_json(context.source()), context.source().string());
     load_illuminant(recipe, [&context](const std::string& name) {
         return read_illuminant_file(context, context.beside_source(name));
     });
-    ProbeImage probe = render_recipe(
-        recipe, [&context](const std::string& name) { return read_image(context, context.beside_source(name)); }, file);
-    return {std::move(recipe), std::move(probe)};
+    return recipe;
+}
+
+ProbeImage make_probe(const ProbeRecipe& recipe, cook::Context& context) {
+    return render_recipe(
+        recipe, [&context](const std::string& name) { return read_image(context, context.beside_source(name)); },
+        context.source().string());
 }
 
 cook::AssetType probe_type() {
@@ -50,10 +53,14 @@ cook::AssetType probe_type() {
         return json != nullptr && json->is_object() && json->contains("probe");
     };
     type.cook = [](cook::Context& context) {
-        const auto [recipe, probe] = make_probe(context);
-        return serialise(build_light_probe(probe, recipe.settings));
+        const ProbeRecipe recipe = read_recipe(context);
+        return serialise(build_light_probe(make_probe(recipe, context), recipe.settings));
     };
-    type.check = [](cook::Context& context) { make_probe(context); };
+    type.check = [](cook::Context& context) {
+        const ProbeRecipe recipe = read_recipe(context);
+        // A studio or a sky is computed from numbers that the recipe's parser has checked.
+        if (std::holds_alternative<ImageRecipe>(recipe.source)) make_probe(recipe, context);
+    };
     type.schema = [] {
         return json_schema("Rowland light probe recipe", [](JsonReader& json) { parse_probe_recipe(json); });
     };

@@ -161,10 +161,13 @@ void require_baked_grooves(const Grating& grating, const std::string& file) {
 
 CookedMaterial bake_kernel(const Material& material) {
     const colour::LightSpectra spectra(material.quality.illuminant);
-    return {.material = material,
-            .tables = DirectTables{},
-            .kernel = kernel_table(material.grating, spectra),
-            .zero_order_xyz = ColourKernel(material.grating, spectra).zero_order_xyz()};
+    const ColourKernel kernel(material.grating, spectra);
+    CookedMaterial cooked{.material = material,
+                          .tables = DirectTables{},
+                          .kernel = kernel_table(material.grating, spectra),
+                          .zero_order_xyz = kernel.zero_order_xyz()};
+    if (cooked.kernel.views == 1) cooked.kernel.error = interpolation_error(cooked.kernel, kernel);
+    return cooked;
 }
 
 CookedMaterial bake_material(const Material& material) {

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <glm/gtc/type_ptr.hpp>
 
 #include "engine/colour/spectrum.h"
 #include "engine/core/check.h"
@@ -136,17 +137,15 @@ constexpr double kWidestDeviation = 0.2;
 constexpr double kColumn_nm = 2.0;
 constexpr int kFewestColumns = 1024;
 
-/// Weights with the variance of a normal distribution, normalised: of columns 0, ±1, ±2, … from its centre.
-/// `deviation`: in columns.
+/// Means of a normal distribution over columns 0, ±1, ±2, … from its centre, normalised. `deviation`: in columns.
 std::vector<float> stencil(double deviation) {
-    constexpr double kFewSamples = 0.6;  // below, samples of the distribution have another variance
-    const double variance = deviation * deviation;
-    if (deviation < kFewSamples) return {static_cast<float>(1.0 - variance), static_cast<float>(0.5 * variance)};
-    std::vector<float> weights;
+    std::vector<float> weights(1 + static_cast<std::size_t>(kBlurReach * deviation));
+    const double scale = 1.0 / (std::sqrt(2.0) * deviation);
     float sum = 0.0F;
-    for (int i = 0; i <= kBlurReach * deviation; ++i) {
-        weights.push_back(static_cast<float>(std::exp(-0.5 * i * i / variance)));
-        sum += (i == 0 ? 1.0F : 2.0F) * weights.back();
+    for (std::size_t i = 0; i < weights.size(); ++i) {
+        const auto x = static_cast<double>(i);
+        weights[i] = static_cast<float>(std::erf((x + 0.5) * scale) - std::erf((x - 0.5) * scale));
+        sum += (i == 0 ? 1.0F : 2.0F) * weights[i];
     }
     for (float& weight : weights) weight /= sum;
     return weights;
@@ -157,62 +156,41 @@ std::size_t wide_column(double deviation) {
     return static_cast<std::size_t>(std::max(1.0, kWidestColumn * deviation));
 }
 
-/// What a look-up adds to a level's variance, in squares of a column's width: means over a column 1/12, those over a
-/// wide column, and linear interpolation between columns, which is above f by f''/12 on average, 1/6.
-double column_variance(std::size_t width) {
-    return static_cast<double>(width * width - 1) / 6.0 + 0.25;
+/// The variance of a level's stencil, in squares of its columns, which are `width` columns wide. A look-up adds to it
+/// the means over a column, 1/12, over a wide column, and of the stencil over a wide column, and linear interpolation,
+/// which is above f by f''/12 on average, 1/6.
+double stencil_variance(double deviation, std::size_t width) {
+    constexpr double kLeast = 1e-4;  // of a stencil of one column
+    const auto square = static_cast<double>(width * width);
+    return std::max(kLeast, (deviation * deviation - 0.25 - (square - 1.0) / 6.0) / square - 1.0 / 12.0);
 }
 
 using Columns = std::vector<glm::mat3>;
 
-/// Columns from `begin` to before `end`.
-struct ColumnRange {
-    std::size_t begin;
-    std::size_t end;
-};
-
-/// Means around 0, `width`, 2 `width`, … under triangles of that half-width, which leave little of what would be an
-/// alias.
-Columns in_wide_columns(const Columns& columns, std::size_t width) {
-    if (width == 1) return columns;
-    Columns means;
-    for (std::size_t centre = 0; centre < columns.size() + width; centre += width) {
-        glm::mat3 sum(0.0F);
-        for (std::size_t i = std::max(centre, width) - width; i < std::min(centre + width, columns.size()); ++i)
-            sum += static_cast<float>(width - std::max(centre, i) + std::min(centre, i)) * columns[i];
-        means.push_back(sum / static_cast<float>(width * width));
-    }
-    return means;
+/// sum += factor · value
+void add(glm::mat3& sum, float factor, const glm::mat3& value) {
+    float* const to = glm::value_ptr(sum);
+    const float* const from = glm::value_ptr(value);
+    for (int i = 0; i < 9; ++i) to[i] += factor * from[i];
 }
 
-/// The sums of `values`, which are 0 beyond their ends, under a symmetric stencil; 0 outside `range`.
-Columns convolve(const Columns& values, std::span<const float> weights, const ColumnRange& range) {
-    Columns sums(values.size(), glm::mat3(0.0F));
-    for (std::size_t i = range.begin; i < std::min(range.end, values.size()); ++i) {
-        glm::mat3 sum = weights[0] * values[i];
-        for (std::size_t j = 1; j < weights.size(); ++j) {
-            if (i >= j) sum += weights[j] * values[i - j];
-            if (i + j < values.size()) sum += weights[j] * values[i + j];
-        }
-        sums[i] = sum;
-    }
-    return sums;
+/// Adds what a symmetric stencil sums around column i; `columns` are 0 beyond their ends.
+void add_sum(std::span<const glm::mat3> columns, std::size_t i, std::span<const float> weights, float factor,
+             glm::mat3& sum) {
+    const std::size_t reach = weights.size() - 1;
+    for (std::size_t j = std::max(i, reach) - reach; j < std::min(i + reach + 1, columns.size()); ++j)
+        add(sum, factor * weights[std::max(i, j) - std::min(i, j)], columns[j]);
 }
 
-/// The columns of `range` by cubics through the four wide columns around each, which are 0 beyond their ends.
-Columns in_columns(const Columns& wide, std::size_t width, std::size_t size, const ColumnRange& range) {
-    if (width == 1) return wide;
-    Columns columns(size, glm::mat3(0.0F));
-    for (std::size_t i = range.begin; i < range.end; ++i) {
-        const float t = static_cast<float>(i % width) / static_cast<float>(width);
-        const std::array factors{-t * (t - 1.0F) * (t - 2.0F) / 6.0F, (t + 1.0F) * (t - 1.0F) * (t - 2.0F) / 2.0F,
-                                 -(t + 1.0F) * t * (t - 2.0F) / 2.0F, (t + 1.0F) * t * (t - 1.0F) / 6.0F};
-        for (std::size_t j = 0; j < factors.size(); ++j) {
-            const std::size_t from = i / width + j;  // of the column after the wide one
-            if (from > 0 && from <= wide.size()) columns[i] += factors[j] * wide[from - 1];
-        }
+/// Adds the cubic through the four wide columns around a column; they are 0 beyond their ends.
+void add_cubic(std::span<const glm::mat3> wide, std::size_t width, std::size_t column, glm::mat3& sum) {
+    const float t = static_cast<float>(column % width) / static_cast<float>(width);
+    const std::array factors{-t * (t - 1.0F) * (t - 2.0F) / 6.0F, (t + 1.0F) * (t - 1.0F) * (t - 2.0F) / 2.0F,
+                             -(t + 1.0F) * t * (t - 2.0F) / 2.0F, (t + 1.0F) * t * (t - 1.0F) / 6.0F};
+    for (std::size_t j = 0; j < factors.size(); ++j) {
+        const std::size_t after = column / width + j;  // the index of the next wide column
+        if (after > 0 && after <= wide.size()) add(sum, factors[j], wide[after - 1]);
     }
-    return columns;
 }
 
 }  // namespace
@@ -267,45 +245,42 @@ BlurredKernel blur(const KernelTable& kernel, double pitch_nm, double widest_nm,
     const auto levels = static_cast<std::size_t>(blurred.levels);
     const auto views = static_cast<std::size_t>(blurred.views);
     const auto x_of = [&](std::size_t column) { return blurred.begin_nm + static_cast<double>(column) * step; };
-    std::vector<Columns> means(static_cast<std::size_t>(kernel.views));  // by the kernel's views
-    parallel_for(means.size(), [&](std::size_t view) {
-        const double v_g = EfficiencyGrid::view_at(static_cast<int>(view));
+    const auto kernel_views = static_cast<std::size_t>(kernel.views);
+    Columns means(kernel_views * size);
+    for (std::size_t view = 0; view < kernel_views; ++view)
         for (std::size_t i = 0; i < size; ++i)
-            means[view].emplace_back(kernel.average(x_of(i) - 0.5 * step, x_of(i) + 0.5 * step, v_g));
-    });
-    std::vector<EfficiencyGrid::ViewCell> cells(views * size);  // between which of the kernel's views a value lies
-    std::vector<ColumnRange> read(means.size(), ColumnRange{size, 0});  // columns, by the kernel's views
-    for (std::size_t view = 0; view < views; ++view)
-        for (std::size_t i = 0; i < size; ++i) {
-            EfficiencyGrid::ViewCell& cell = cells[view * size + i];
-            if (views > 1) {
-                const double u = x_of(i) / pitch_nm;
-                const double coordinate = 2.0 * static_cast<double>(view) / (kBlurredViews - 1) - 1.0;
-                cell = EfficiencyGrid::view_cell(0.5 * (u + coordinate * std::max(2.0 - std::abs(u), 0.0)));
-            }
-            for (std::size_t j = cell.first; j < std::min(cell.first + 2, read.size()); ++j)
-                read[j] = {std::min(read[j].begin, i), std::max(read[j].end, i + 1)};
-        }
-    blurred.values.resize(views * levels * size);
+            means[view * size + i] = kernel.average(x_of(i) - 0.5 * step, x_of(i) + 0.5 * step,
+                                                    EfficiencyGrid::view_at(static_cast<int>(view)));
+    blurred.values.resize(views * levels * size, glm::mat3(0.0F));
     parallel_for(levels, [&](std::size_t level) {
         const double deviation = deviation_of(static_cast<int>(level)) / step;
         const std::size_t width = wide_column(deviation);
-        const double left = std::max(0.0, deviation * deviation - column_variance(width));
-        const std::vector<float> weights = stencil(std::sqrt(left) / static_cast<double>(width));
-        std::vector<Columns> smoothed;
-        for (std::size_t view = 0; view < means.size(); ++view) {
-            const auto& [begin, end] = read[view];
-            const ColumnRange wide{std::max(begin / width, std::size_t{1}) - 1, end / width + 3};
-            smoothed.push_back(
-                in_columns(convolve(in_wide_columns(means[view], width), weights, wide), width, size, read[view]));
-        }
-        for (std::size_t view = 0; view < views; ++view)
-            for (std::size_t i = 0; i < size; ++i) {
-                const auto& [first, weight] = cells[view * size + i];
-                glm::mat3& value = blurred.values[(view * levels + level) * size + i];
-                value = smoothed[first][i];
-                if (weight > 0.0) value += static_cast<float>(weight) * (smoothed[first + 1][i] - value);
+        const std::vector<float> weights = stencil(std::sqrt(stencil_variance(deviation, width)));
+        // Means under triangles leave little of what would be an alias.
+        std::vector<float> triangle(width);
+        for (std::size_t i = 0; i < width; ++i)
+            triangle[i] = static_cast<float>(width - i) / static_cast<float>(width * width);
+        const std::size_t count = (size + width - 1) / width + 1;
+        Columns wide(kernel_views * count, glm::mat3(0.0F));
+        const auto wide_of = [&](std::size_t view) { return std::span(wide).subspan(view * count, count); };
+        for (std::size_t view = 0; view < kernel_views; ++view)
+            for (std::size_t i = 0; i < count; ++i)
+                add_sum(std::span(means).subspan(view * size, size), i * width, triangle, 1.0F, wide_of(view)[i]);
+        for (std::size_t view = 0; view < views; ++view) {
+            const double coordinate = 2.0 * static_cast<double>(view) / (kBlurredViews - 1) - 1.0;
+            Columns sums(count, glm::mat3(0.0F));
+            for (std::size_t i = 0; i < count; ++i) {
+                const double u = x_of(i * width) / pitch_nm;
+                EfficiencyGrid::ViewCell cell;
+                if (views > 1)
+                    cell = EfficiencyGrid::view_cell(0.5 * (u + coordinate * std::max(2.0 - std::abs(u), 0.0)));
+                const auto part = static_cast<float>(cell.weight);
+                for (std::size_t j = 0; j < std::min(kernel_views, std::size_t{2}); ++j)
+                    add_sum(wide_of(cell.first + j), i, weights, j == 0 ? 1.0F - part : part, sums[i]);
             }
+            for (std::size_t i = 0; i < size; ++i)
+                add_cubic(sums, width, i, blurred.values[(view * levels + level) * size + i]);
+        }
     });
     return blurred;
 }

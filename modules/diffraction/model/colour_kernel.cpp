@@ -179,18 +179,24 @@ KernelTable tabulate(const ColourKernel& kernel, std::size_t entries) {
     ROWLAND_CHECK_OP(entries, >=, std::size_t{2});
     KernelTable table{.begin_nm = kernel.begin_nm(), .end_nm = kernel.end_nm(), .antiderivative = {}};
     const double step_nm = (table.end_nm - table.begin_nm) / static_cast<double>(entries - 1);
-    const auto x_of = [&](double position) { return table.begin_nm + position * step_nm; };
     for (std::size_t i = 0; i < entries; ++i)
-        table.antiderivative.emplace_back(kernel.antiderivative(x_of(static_cast<double>(i))));
-    const double rise = largest_component(kernel.antiderivative(table.end_nm) - kernel.antiderivative(table.begin_nm));
-    if (rise == 0.0) return table;
-    constexpr int kChecked = 7;
-    for (std::size_t i = 0; i + 1 < entries; ++i)
-        for (int j = 1; j <= kChecked; ++j) {
-            const double x_nm = x_of(static_cast<double>(i) + static_cast<double>(j) / (kChecked + 1));
-            table.error = std::max(table.error, largest_component(table.at(x_nm) - kernel.antiderivative(x_nm)) / rise);
-        }
+        table.antiderivative.emplace_back(kernel.antiderivative(table.begin_nm + step_nm * static_cast<double>(i)));
     return table;
+}
+
+double interpolation_error(const KernelTable& table, const ColourKernel& kernel) {
+    const double rise = largest_component(kernel.antiderivative(table.end_nm) - kernel.antiderivative(table.begin_nm));
+    if (rise == 0.0) return 0.0;
+    constexpr int kChecked = 7;
+    const double step_nm = (table.end_nm - table.begin_nm) / static_cast<double>(table.entries() - 1);
+    double largest = 0.0;
+    for (std::size_t i = 0; i + 1 < table.entries(); ++i)
+        for (int j = 1; j <= kChecked; ++j) {
+            const double position = static_cast<double>(i) + static_cast<double>(j) / (kChecked + 1);
+            const double x_nm = table.begin_nm + position * step_nm;
+            largest = std::max(largest, largest_component(table.at(x_nm) - kernel.antiderivative(x_nm)));
+        }
+    return largest / rise;
 }
 
 KernelTable kernel_table(const Grating& grating, const colour::LightSpectra& spectra) {
@@ -220,11 +226,8 @@ bool is_even(const KernelTable& kernel) {
         const double x_nm = reach * ((i - 1) % samples + 1) / samples;
         const glm::dmat3 right = kernel.at(x_nm, v_g) - kernel.at(0.0, v_g);
         const glm::dmat3 left = kernel.at(0.0, -v_g) - kernel.at(-x_nm, -v_g);
-        for (int c = 0; c < 3; ++c)
-            for (int o = 0; o < 3; ++o) {
-                largest = std::max(largest, std::abs(right[c][o]));
-                difference = std::max(difference, std::abs(right[c][o] - left[c][o]));
-            }
+        largest = std::max(largest, largest_component(right));
+        difference = std::max(difference, largest_component(right - left));
     }
     return difference <= 1e-5 * largest;
 }

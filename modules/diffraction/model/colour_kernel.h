@@ -79,9 +79,7 @@ struct KernelTable {
     double end_nm = 0.0;
     int views = 1;                          ///< 1, or EfficiencyGrid::kViews
     std::vector<glm::mat3> antiderivative;  ///< view by view; of each, first at begin_nm, last at end_nm
-    /// Largest error of an interpolated component of 𝒦 at v_g = 0, relative to the largest component of 𝒦(end) −
-    /// 𝒦(begin); measured at seven points between neighbouring entries.
-    double error = 0.0;
+    double error = 0.0;                     ///< interpolation_error() of a cooked kernel of one view
 
     std::size_t entries() const { return antiderivative.size() / static_cast<std::size_t>(views); }
     /// 𝒦(x; v_g), clamped to the table's ends.
@@ -95,6 +93,9 @@ struct KernelTable {
 
 /// The table of one view's kernel, entries ≥ 2.
 KernelTable tabulate(const ColourKernel& kernel, std::size_t entries = 2048);
+/// Largest error of an interpolated component of 𝒦 at v_g = 0, relative to the largest component of 𝒦(end) − 𝒦(begin);
+/// measured at seven points between neighbouring entries.
+double interpolation_error(const KernelTable& table, const ColourKernel& kernel);
 /// The kernel of all views of a grating. Uses all cores.
 KernelTable kernel_table(const Grating& grating, const colour::LightSpectra& spectra);
 

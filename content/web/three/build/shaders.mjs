@@ -135,9 +135,10 @@ function shader(file) {
     const bare = text.replace(/\/\*[^]*?\*\//g, "").replace(/\/\/.*/g, "");
     return taken(plainUniforms(bare).split("\n"))
         .map((line) => line.trim())
-        .map((line) => (/^#|\\$/.test(line) ? line : line.replace(/ *([=<>,;:?{}()*]|&&|\|\|) */g, "$1").replace(/(\w|\)) ([-+/]) (?=\w|\()/g, "$1$2")))
+        .map((line) => (/^#|\\$/.test(line) ? line : line.replace(/ *([=<>,;:?{}()*]|&&|\|\|) */g, "$1").replace(/(\w|\)) ?([-+/]) ?(?=\w|\()/g, "$1$2")))
         .filter((line) => line !== "" && !line.startsWith("precision "))
-        .join("\n");
+        .join("\n")
+        .replace(/^(?!#)(.*[;{}])\n(?!#)/gm, "$1"); // a directive has a line of its own
 }
 
 const own = (name) => JSON.stringify(shader(here + "src/glsl/" + name));
