@@ -13,7 +13,8 @@
 
 namespace rowland::gpu {
 
-/// Texel formats of textures and framebuffers. 8, 10 and 16 without a suffix are unsigned normalised.
+/// Texel formats of textures and framebuffers. 8, 10 and 16 without a suffix are unsigned normalised. RGB9_E5 has three
+/// numbers of nine bits and their common exponent, of textures alone.
 enum class Format {
     RGBA8,
     SRGB8_A8,
@@ -85,7 +86,7 @@ class Texture {
     void upload(std::span<const float> data, TextureSlice slice = {});
     void upload(std::span<const std::uint8_t> data, TextureSlice slice = {});
     void upload(std::span<const std::uint16_t> data, TextureSlice slice = {});
-    /// One number per texel of RGB10_A2, red in the lowest ten bits.
+    /// One number per texel of RGB10_A2 or RGB9_E5, red in the lowest bits.
     void upload(std::span<const std::uint32_t> data, TextureSlice slice = {});
     void upload(std::span<const glm::vec3> data, TextureSlice slice = {});
     void upload(std::span<const glm::vec4> data, TextureSlice slice = {});
