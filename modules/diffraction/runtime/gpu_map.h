@@ -30,7 +30,7 @@ struct MapTexels {
 MapTexels pack(std::span<const std::vector<glm::vec3>> levels, gpu::TextureDesc desc, const gpu::Sampling& sampling);
 MapTexels pack(std::span<const std::vector<glm::vec4>> levels, gpu::TextureDesc desc, const gpu::Sampling& sampling);
 
-/// XYZ as RGB9_E5: nine bits per component, which share their exponent. Negative components become 0.
+/// XYZ as RGB9_E5: nine bits per component and one exponent. Negative components become 0.
 MapTexels pack_xyz(std::span<const glm::vec3> values, gpu::TextureDesc desc, const gpu::Sampling& sampling);
 
 /// Values of either sign in ten bits per component, 0 to 1 for −scale to scale: one level, as RGB10_A2.
