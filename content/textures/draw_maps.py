@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""draw_maps.py FOLDER: draws again the maps of the beetle, the glitter card, the wooden tables and the oil that the
+"""draw_maps.py FOLDER: draws again the maps of the wing cases, the glitter card, the wooden tables and the oil that the
 scenes hold (wood.png as JPEG, quality 86). Always the same bytes."""
 import math, pathlib, random, struct, sys, zlib
 
@@ -49,8 +49,7 @@ def dent(heights, x, y, half_x, half_y, depth):
 
 
 def beetle():
-    """Two of the eight intervals between striae, 64 texels wide; a stria has 46 punctures along the body. The leather of
-    the body."""
+    """Two of the eight intervals between striae, 64 texels wide; a stria has 46 punctures along the body."""
     random.seed(9)
     case = [[0.0] * 128 for _ in range(1024)]
     for stria in range(2):
@@ -60,12 +59,6 @@ def beetle():
     for _ in range(130):
         dent(case, random.uniform(0, 128), random.uniform(0, 1024), 2.2, 2.2, random.uniform(0.3, 0.8))
     write_normals("beetle_wing_case.png", case, 0.5)
-    random.seed(4)
-    body = [[0.0] * 128 for _ in range(128)]
-    for _ in range(375):
-        size = random.uniform(1.6, 4.0)
-        dent(body, random.uniform(0, 128), random.uniform(0, 128), size, size, 0.16 * size)
-    write_normals("beetle_body.png", body, 0.5)
 
 
 def glitter():
@@ -101,12 +94,12 @@ def wood():
     size = 512
     heights = [[0.0] * size for _ in range(size)]
     for _ in range(1500):
-        dent(heights, random.uniform(0, size), random.uniform(0, size), random.uniform(5, 22), random.uniform(0.7, 1.2),
-             random.uniform(0.3, 1.3))
+        dent(heights, random.uniform(0, size), random.uniform(0, size), random.uniform(8, 26), random.uniform(1.2, 1.9),
+             random.uniform(0.1, 0.55))
     write_normals("wood_normals.png", heights, 0.35)
     smear = waves(6, 8, 3, 3)
     write_png("wood_gloss.png", [[(255, STEP * (byte(0.35 + 0.012 * smear(x / size, y / size)
-                                                     - 0.25 * min(heights[y][x], 0)) // STEP), 0)
+                                                     - 0.12 * min(heights[y][x], 0)) // STEP), 0)
                                   for x in range(size)] for y in range(size)])
 
 

@@ -89,7 +89,7 @@ class ObjectReflection {
     explicit ObjectReflection(int face_size);
 
     scene::Camera camera(int face) const { return cube_face_camera(face, centre); }
-    /// Fills a face from a picture by camera(face), of twice the face's size, and the picture's depth.
+    /// Fills a face from a picture by camera(face), of the face's size, and the picture's depth.
     void store(ProgramCache& programs, const gpu::FullScreenTriangle& triangle, const gpu::Framebuffer& picture,
                int face);
     /// Updates the smaller levels; call it after store().
@@ -106,14 +106,14 @@ class ObjectReflection {
     gpu::StreamBuffer frame_data;  ///< the renderer's, while faces are drawn
 
  private:
-    gpu::Texture light_;                     ///< working space, times coverage; alpha: coverage
+    gpu::Texture light_;                     ///< working space, 0 where nothing is; alpha: 1 where an object is
     gpu::Texture nearness_;                  ///< 1 / distance, metres; 0: nothing
     std::vector<gpu::Framebuffer> targets_;  ///< light and nearness of each face
 };
 
 /// The ObjectReflection of each group, and what drawing them needs.
 struct ObjectReflections {
-    static constexpr int kFaceSize = 128;
+    static constexpr int kFaceSize = 256;
 
     ObjectReflections();
     /// Makes it if the group has none.
@@ -121,7 +121,7 @@ struct ObjectReflections {
 
     ObjectReflection nothing{1};  ///< what mirrors in another mirror's surroundings reflect
     gpu::Texture all_visible;     ///< bound for the surroundings instead of AmbientOcclusion::visibility()
-    gpu::Framebuffer picture{{.width = 2 * kFaceSize, .height = 2 * kFaceSize, .depth = true}};
+    gpu::Framebuffer picture{{.width = kFaceSize, .height = kFaceSize, .depth = true}};
     gpu::FullScreenTriangle triangle;
 
  private:

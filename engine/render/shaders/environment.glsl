@@ -129,12 +129,13 @@ vec3 with_local_reflection(vec3 environment_radiance, vec3 direction, float roug
 
 #ifdef OBJECT_REFLECTIONS
 // What a reflected ray meets among the objects around its mirror: engine/render/reflections.h.
-TEXTURE_UNIT(19) uniform samplerCube surrounding_light;     // times coverage; alpha: coverage
+TEXTURE_UNIT(19) uniform samplerCube surrounding_light;     // alpha: 1 where an object is, else all are 0
 TEXTURE_UNIT(20) uniform samplerCube surrounding_nearness;  // 1 / distance from the centre, metres; 0: nothing
 uniform vec4 surroundings;  // xyz: the centre, world; w: angle of a texel, radians
 
 const int MARCH_STEPS = 16;
 const int HALVINGS = 5;
+const float PASSED = 1.2;  // distance from the centre over the object's
 
 // Direction from the centre to a point of a ray, at an angle from the ray's direction. `aside`: to the ray's nearest
 // point.
@@ -168,9 +169,12 @@ vec3 with_object_reflection(vec3 beyond, vec3 direction, float roughness) {
         if (lies_behind_object(angle, aside, direction, least)) met = angle;
         else before = angle;
     }
+    // A ray that is far behind the object already where it first is behind it passes behind its outline.
+    vec3 toward = toward_point(met, aside, direction);
+    if (textureLod(surrounding_nearness, toward, 0.0).r * least > PASSED * sin(met)) return beyond;
     // The GGX lobe's angle, as in with_local_reflection(), plus the pixel's.
     float footprint = 2.0 * roughness * roughness + max(spread.x, max(spread.y, spread.z));
-    vec4 light = textureLod(surrounding_light, toward_point(met, aside, direction),
+    vec4 light = textureLod(surrounding_light, toward,
                             log2(max(footprint / surroundings.w, 1.0)));
     return beyond * (1.0 - light.a) + light.rgb;
 }

@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 #include <memory>
 #include <numbers>
+#include <span>
 #include <utility>
 
 #include "engine/core/check.h"
@@ -22,26 +23,16 @@ namespace {
 using math::FourierTransform;
 constexpr std::size_t kLightLanes = FourierTransform::kLanes;
 
-/// Number of nodes that a cubic spline reaches beyond each end of the grid.
-constexpr int kMargin = 1;
-
-/// Half the variance, in squares of a step, by which the distributions blur a map along an axis: the light's cubic
-/// splines (1/3), the pattern's among two nodes (1/6) and the disc's, of cells of half a step (1/24).
-constexpr float kBlur = 13.0F / 48.0F;
+/// Half the variance, in squares of a step, by which the distributions blur a map along an axis: the light's and the
+/// pattern's among two nodes (1/6 each) and the disc's, of cells of half a step (1/24).
+constexpr float kBlur = 3.0F / 16.0F;
+/// The same of refined()'s quadratic spline.
+constexpr float kSplineBlur = 1.0F / 8.0F;
 /// Steps of sharpening along an axis of views: more restore finer detail.
-constexpr int kSteps = 3;
+constexpr int kSteps = 4;
 /// In a step, a node that is darker than its neighbours gives at most this fraction of its light to one of them. Twice
 /// as much amplifies ripples of the light until they show as stripes.
 constexpr float kMayDarken = 0.05F;
-
-/// Weights of the four nodes around a position: the cubic spline, whose centre of weight is the position.
-std::array<float, 4> spline_weights(float t) {
-    const float u = 1.0F - t;
-    const float first = u * u * u / 6.0F;
-    const float last = t * t * t / 6.0F;
-    const float second = 2.0F / 3.0F - 0.5F * t * t * (2.0F - t);
-    return {first, second, 1.0F - first - second - last, last};
-}
 
 /// Factors of the frequencies of one axis that blur the light's samples to the bilinear radiance between them: a
 /// texel's hat function, whose variance is a sixth of its squared side, as a random walk between neighbouring nodes.
@@ -79,7 +70,7 @@ class AzimuthPair {
     std::vector<float> between_g_;
     std::vector<float> between_h_;
     std::size_t row_stride_;  ///< in floats; not a power of two, so that a column's floats are not in one cache set
-    std::array<std::vector<float>, 2> parts_;   ///< real and imaginary: views.g + 2 kMargin rows
+    std::array<std::vector<float>, 2> parts_;   ///< real and imaginary: views.g rows
     std::array<std::vector<float>, 2> column_;  ///< a column, and room for a transform's work
     std::array<std::vector<float>, 2> light_;   ///< a column of the light alone, for patterns of several terms
     std::array<std::vector<float>, 2> work_;
@@ -93,8 +84,7 @@ AzimuthPair::AzimuthPair(const LobeSpectrum& spectrum, std::size_t samples)
       between_h_(between_samples(samples, spectrum.size_h(), spectrum.views().step_h())),
       row_stride_(kLightLanes * (spectrum.size_h() + 4)) {
     const std::size_t longest = kLightLanes * std::max(spectrum.size_g(), spectrum.size_h());
-    for (auto& part : parts_)
-        part.assign(static_cast<std::size_t>(spectrum.views().g + 2 * kMargin) * row_stride_, 0.0F);
+    for (auto& part : parts_) part.assign(static_cast<std::size_t>(spectrum.views().g) * row_stride_, 0.0F);
     for (auto& part : column_) part.assign(kLightLanes * spectrum.size_g(), 0.0F);
     for (auto& part : work_) part.assign(longest, 0.0F);
 }
@@ -126,15 +116,14 @@ void AzimuthPair::add_light(const LightDisc& disc, double azimuth, int part) {
             const float at_h = std::clamp(middle_h + column_h * x + row_h * y, 0.0F, last_h);
             const int low_g = static_cast<int>(at_g);
             const int low_h = static_cast<int>(at_h);
-            const std::array<float, 4> weights_g = spline_weights(at_g - static_cast<float>(low_g));
-            const std::array<float, 4> weights_h = spline_weights(at_h - static_cast<float>(low_h));
+            const float part_g = at_g - static_cast<float>(low_g);
+            const float part_h = at_h - static_cast<float>(low_h);
             // Node 0 of u is v = −s: the light's last node along h comes first.
-            const int first_h = low_h - kMargin - (views.h - 1) + size_h;
-            for (int i = 0; i < 4; ++i) {
+            const int first_h = low_h - (views.h - 1) + size_h;
+            for (int i = 0; i < 2; ++i) {
                 float* to = grid + static_cast<std::size_t>(low_g + i) * row_stride_;
-                for (int j = 0; j < 4; ++j) {
-                    const float weight =
-                        weights_g[static_cast<std::size_t>(i)] * weights_h[static_cast<std::size_t>(j)];
+                for (int j = 0; j < 2; ++j) {
+                    const float weight = (i == 0 ? 1.0F - part_g : part_g) * (j == 0 ? 1.0F - part_h : part_h);
                     const int node = first_h + j < size_h ? first_h + j : first_h + j - size_h;
                     float* lanes = to + static_cast<std::size_t>(node) * kLightLanes;
                     for (std::size_t c = 0; c < kLightLanes; ++c) lanes[c] += weight * light[c];
@@ -167,7 +156,6 @@ void multiply(const float* matrix, float factor, float* real, float* imaginary) 
 
 void AzimuthPair::transform_columns() {
     const int views = spectrum_.views().g;
-    const int rows = views + 2 * kMargin;
     const int size = static_cast<int>(along_g_.size());
     const auto work = [&] {
         const std::size_t count = kLightLanes * along_g_.size();
@@ -178,8 +166,8 @@ void AzimuthPair::transform_columns() {
             float* to = column_[part].data();
             std::fill_n(to, column_[part].size(), 0.0F);
             const float* from = parts_[part].data() + kLightLanes * h;
-            for (int i = 0; i < rows; ++i) {
-                const int node = (i - kMargin - (views - 1) + size) % size;
+            for (int i = 0; i < views; ++i) {
+                const int node = (i - (views - 1) + size) % size;
                 std::copy_n(from + static_cast<std::size_t>(i) * row_stride_, kLightLanes,
                             to + kLightLanes * static_cast<std::size_t>(node));
             }
@@ -212,7 +200,7 @@ void AzimuthPair::correlate() {
         const std::size_t count = kLightLanes * along_h_.size();
         along_h_(row(i), {std::span(work_[0]).first(count), std::span(work_[1]).first(count)});
     };
-    for (int i = 0; i < spectrum_.views().g + 2 * kMargin; ++i) transform_row(i);
+    for (int i = 0; i < spectrum_.views().g; ++i) transform_row(i);
     transform_columns();
     for (int i = 0; i < spectrum_.views().g; ++i) transform_row(i);
 }
@@ -257,23 +245,51 @@ void sharpen_line(float fraction, glm::vec3* values, std::size_t count, std::siz
         values[i * stride] = sharpened(fraction, {work[i], work[i + 1], work[i + 2], work[i + 3], work[i + 4]});
 }
 
-/// Undoes the blur along both axes of views, and lowers values for linear interpolation.
-void sharpen_slice(glm::vec3* values, const LobeMapViews& views) {
-    constexpr float kFraction = (kBlur + kBestLinear) / kSteps;
+/// Undoes the blur along both axes of views, and that of the interpolation between the nodes before it happens.
+/// `interpolation`: half its variance in squares of a step, or what is best in its place.
+void sharpen_slice(glm::vec3* values, const LobeMapViews& views, float interpolation) {
+    const float fraction = (kBlur + interpolation) / kSteps;
     const auto g = static_cast<std::size_t>(views.g);
     const auto h = static_cast<std::size_t>(views.h);
     std::vector<glm::vec3> work;
     for (int step = 0; step < kSteps; ++step) {
-        for (std::size_t i = 0; i < h; ++i) sharpen_line(kFraction, values + i * g, g, 1, work);
-        for (std::size_t i = 0; i < g; ++i) sharpen_line(kFraction, values + i, h, g, work);
+        for (std::size_t i = 0; i < h; ++i) sharpen_line(fraction, values + i * g, g, 1, work);
+        for (std::size_t i = 0; i < g; ++i) sharpen_line(fraction, values + i, h, g, work);
     }
 }
 
-void copy_slice(const AzimuthPair& pair, int part, const LobeMapViews& views, glm::vec3* to) {
+void copy_slice(const AzimuthPair& pair, int part, const LobeMapViews& views, float interpolation, glm::vec3* to) {
     glm::vec3* next = to;
     for (int h = 0; h < views.h; ++h)
         for (int g = 0; g < views.g; ++g) *next++ = pair.value(part, g, h);
-    sharpen_slice(to, views);
+    sharpen_slice(to, views, interpolation);
+}
+
+/// The quadratic spline of coefficients along a line, at the nodes and in the middles between them. Beyond its ends, a
+/// line continues with the last coefficient.
+void refine_line(const glm::vec3* from, std::size_t count, glm::vec3* to, std::size_t stride) {
+    const auto at = [&](std::size_t i) { return from[std::min(i, count - 1) * stride]; };
+    for (std::size_t i = 0; i < count; ++i) {
+        const glm::vec3 before = at(i > 0 ? i - 1 : 0);
+        to[2 * i * stride] = 0.125F * before + 0.75F * at(i) + 0.125F * at(i + 1);
+        if (i + 1 < count) to[(2 * i + 1) * stride] = 0.5F * (at(i) + at(i + 1));
+    }
+}
+
+/// The quadratic spline of a slice's coefficients on a grid of half the step. Without it a lamp's streak across the
+/// grid's axes shows as a staircase: what linear interpolation adds around a bright node ends in straight lines.
+std::vector<glm::vec3> refined(std::span<const glm::vec3> coefficients, const LobeMapViews& coarse,
+                               const LobeMapViews& fine) {
+    const auto rows = static_cast<std::size_t>(coarse.h);
+    const auto columns = static_cast<std::size_t>(fine.g);
+    const auto from_columns = static_cast<std::size_t>(coarse.g);
+    std::vector<glm::vec3> wide(columns * rows);
+    for (std::size_t row = 0; row < rows; ++row)
+        refine_line(coefficients.data() + row * from_columns, from_columns, wide.data() + row * columns, 1);
+    std::vector<glm::vec3> result(columns * static_cast<std::size_t>(fine.h));
+    for (std::size_t column = 0; column < columns; ++column)
+        refine_line(wide.data() + column, rows, result.data() + column, columns);
+    return result;
 }
 
 /// The radiance of a map's azimuths, slice by slice.
@@ -297,7 +313,7 @@ class LobeSlices {
         both.correlate();
         for (int part = 0; part < 2; ++part) {
             slice_at(first + part).resize(texels());
-            copy_slice(both, part, spectrum_.views(), slice_at(first + part).data());
+            copy_slice(both, part, spectrum_.views(), kBestLinear, slice_at(first + part).data());
         }
     }
     /// Computes what value() needs at a slice.
@@ -370,15 +386,17 @@ LobeMap fill_lobe_slice(const lighting::LightSamples& texels, const LobeSpectrum
                         const glm::dvec3& grating) {
     const glm::dvec3 n = glm::normalize(normal);
     const glm::dvec3 g = glm::normalize(grating - n * glm::dot(n, grating));
-    LobeMap map{.size = {.azimuths = 1, .views = spectrum.views()},
+    LobeMap map{.size = {.azimuths = 1, .views = {.g = 2 * spectrum.views().g - 1, .h = 2 * spectrum.views().h - 1}},
                 .half_turn = false,
                 .axes = {glm::cross(g, n), g, n},
                 .values = {}};
-    map.values.resize(static_cast<std::size_t>(map.size.views.g) * static_cast<std::size_t>(map.size.views.h));
+    const LobeMapViews& nodes = spectrum.views();
+    std::vector<glm::vec3> coefficients(static_cast<std::size_t>(nodes.g) * static_cast<std::size_t>(nodes.h));
     AzimuthPair one(spectrum, texels.size());
     one.add_light(light_on_disc(texels, map.axes, spectrum.cover(), spectrum.disc_cells()), 0.5 * std::numbers::pi, 0);
     one.correlate();
-    copy_slice(one, 0, map.size.views, map.values.data());
+    copy_slice(one, 0, nodes, kSplineBlur, coefficients.data());
+    map.values = refined(coefficients, nodes, map.size.views);
     return map;
 }
 

@@ -24,8 +24,8 @@ inline constexpr LobeMapSize kCoarseLobeMap{.azimuths = 64, .views = {.g = 64, .
 inline constexpr LobeMapSize kCoarseLobeSlice{.azimuths = 1, .views = {.g = 128, .h = 128}};
 
 /// The size of the map that replaces one of `size` for an object whose g is the same everywhere: twice as many views
-/// along each axis, 384 at most. More would show the probe's texels. 256 × 256 take 0.5 MB, and 25 MB for their
-/// LobeSpectrum.
+/// along each axis, 384 at most. More would show the probe's texels. The map of 256 × 256 has 511 × 511 texels
+/// (fill_lobe_slice()), 1 MB, and its LobeSpectrum 25 MB.
 constexpr LobeMapSize one_azimuth(const LobeMapSize& size) {
     constexpr int kMost = 384;
     return {.azimuths = 1, .views = {.g = std::min(2 * size.views.g, kMost), .h = std::min(2 * size.views.h, kMost)}};
@@ -67,7 +67,8 @@ std::function<glm::dvec3(const ShadingPoint&)> lobe_map_of_points(const lighting
                                                                   const LobeSpectrum& spectrum,
                                                                   const glm::dvec3& normal, int azimuths);
 
-/// Fills a map of one azimuth, that of `grating`. Uses one core.
+/// Fills a map of one azimuth, that of `grating`. Uses one core. The map has two texels for each step of the spectrum's
+/// views along both axes, and they are a quadratic spline's.
 LobeMap fill_lobe_slice(const lighting::LightSamples& texels, const LobeSpectrum& spectrum, const glm::dvec3& normal,
                         const glm::dvec3& grating);
 

@@ -216,7 +216,7 @@ TEST_F(ObjectReflectionTest, AMirrorShowsObjectsWhereItsRaysMeetThem) {
                 wrong += std::abs(static_cast<double>(shown[index(column, row)]) - object) > 0.02 ? 1 : 0;
             }
         EXPECT_GT(inside, 30) << object;
-        EXPECT_LE(wrong, inside / 50) << object;
+        EXPECT_LE(wrong, inside / 500) << object;
     }
 }
 

@@ -237,6 +237,47 @@ TEST(LatticeMapUnderALamp, HasNoRings) {
     EXPECT_LT(most, 0.1);
 }
 
+/// Of log₂ Y along a diagonal order of the brightest sample, so many steps of the views beside its middle: the largest
+/// second difference over half a step.
+double unevenness_of_a_streak(const LobeMap& map, const lighting::LightSamples& texels, double step, double beside) {
+    const auto brightest = std::ranges::max_element(texels.green) - texels.green.begin();
+    ShadingPoint point{.view = map.axes.n, .normal = map.axes.n, .grating = map.axes.e2};
+    const glm::dmat3 to_tangent = world_to_tangent(point);
+    const glm::dvec2 lamp(to_tangent * texels.direction(static_cast<std::size_t>(brightest)));
+    std::vector<double> logarithms;
+    for (int i = 0; i < 40; ++i) {
+        const glm::dvec2 along(0.5 + 0.25 * step * i);
+        const glm::dvec2 v = glm::sign(lamp) * (along + beside * step * glm::dvec2(0.7071, -0.7071)) - lamp;
+        point.view = glm::transpose(to_tangent) * glm::dvec3(v, std::sqrt(1.0 - glm::dot(v, v)));
+        logarithms.push_back(std::log2(sample(map, point).y));
+    }
+    double largest = 0.0;
+    for (std::size_t i = 2; i + 2 < logarithms.size(); ++i)
+        largest = std::max(largest, std::abs(logarithms[i - 2] - 2.0 * logarithms[i] + logarithms[i + 2]));
+    return largest;
+}
+
+/// Linear interpolation between the views alone has .22: a staircase.
+TEST(LobeSlice, ALampsStreakAcrossTheAxesHasNoSteps) {
+    const lighting::StudioRecipe room{.ceiling = glm::dvec3(1e-4),
+                                      .wall = glm::dvec3(1e-4),
+                                      .floor = glm::dvec3(1e-4),
+                                      .boxes = {{.azimuth_deg = 128.0,
+                                                 .elevation_deg = 60.0,
+                                                 .half_width_deg = 0.5,
+                                                 .half_height_deg = 0.5,
+                                                 .soft_edge_deg = 0.2,
+                                                 .radiance = glm::dvec3(300.0)}}};
+    const lighting::LightSamples texels = lighting::light_samples(
+        lighting::ProbeImage(lighting::render_studio(room, 1024), lighting::Mapping::Equirectangular));
+    const LobeMapViews views{.g = 128, .h = 128};
+    const LobeSpectrum spectrum(shaded_pattern(crossed_foil(), colour::LightSpectra()), views);
+    const PlaneAxes axes = plane_axes(glm::dvec3(0.0, 1.0, 0.0));
+    const LobeMap map = fill_lobe_slice(texels, spectrum, axes.n, axes.e1);
+    for (const double beside : {0.0, 0.5, 1.0, 1.5})
+        EXPECT_LT(unevenness_of_a_streak(map, texels, views.step_g(), beside), 0.1) << beside;
+}
+
 /// How far a map is below 0, and outside of what the reference has within two nodes along both axes: as fractions of
 /// the brightest there.
 struct Deviation {
