@@ -246,7 +246,7 @@ void sharpen_line(float fraction, glm::vec3* values, std::size_t count, std::siz
 }
 
 /// Undoes the blur along both axes of views, and that of the interpolation between the nodes before it happens.
-/// `interpolation`: half its variance in squares of a step, or what is best in its place.
+/// `interpolation`: half its variance in squares of a step, or kBestLinear.
 void sharpen_slice(glm::vec3* values, const LobeMapViews& views, float interpolation) {
     const float fraction = (kBlur + interpolation) / kSteps;
     const auto g = static_cast<std::size_t>(views.g);
