@@ -49,7 +49,7 @@ LiveAssets open_assets(const Options& options) {
 std::vector<std::filesystem::path> probe_paths(const Options& options) {
     if (options.probe) return {*options.probe};
     std::vector<std::filesystem::path> paths;
-    for (const char* name : {"interior", "sunrise", "studio", "courtyard", "night", "forest", "sunset", "city"})
+    for (const char* name : {"interior", "forest", "city", "courtyard", "night", "studio", "sunrise", "sunset"})
         if (const auto path = options.cooked_folder / fmt::format("captured_{}.probe", name);
             std::filesystem::exists(path))
             paths.push_back(path);

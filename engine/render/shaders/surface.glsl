@@ -178,7 +178,8 @@ vec3 shadow_coordinates(vec3 position, vec3 n, vec3 l) {
 #ifdef SOFT_SHADOWS
 // The light is a disc: percentage-closer soft shadows, engine/render/scene_lights.h.
 const int SHADOW_TAPS = 16;
-const float WIDEST_PENUMBRA = 24.0;  // texels
+const float NARROWEST_PENUMBRA = 1.5;  // texels
+const float WIDEST_PENUMBRA = 24.0;
 
 // Points of a disc at equal areas: Vogel's spiral. `turn` is rotated by the golden angle for the next one.
 vec2 next_of_disc(int i, inout vec2 turn) {
@@ -204,7 +205,7 @@ float shadow_tap(vec3 at) {
 // Fraction of the disc that is visible from a point of the map. n: the surface's normal on the light's side.
 float lit_fraction(vec3 at, vec3 n) {
     vec2 slope = depth_slope(n);
-    float reach = clamp(shadow.w * at.z, shadow.y, WIDEST_PENUMBRA * shadow.y);
+    float reach = clamp(shadow.w * at.z, NARROWEST_PENUMBRA * shadow.y, WIDEST_PENUMBRA * shadow.y);
     vec2 turn = vec2(1.0, 0.0);
     float blockers = 0.0;
     float depths = 0.0;
@@ -217,13 +218,14 @@ float lit_fraction(vec3 at, vec3 n) {
     }
     if (blockers == 0.0) return 1.0;
     if (blockers == 4.0 * float(SHADOW_TAPS)) return 0.0;
-    float radius = clamp(shadow.w * (at.z - depths / blockers), shadow.y, reach);
+    float radius = clamp(shadow.w * (at.z - depths / blockers), NARROWEST_PENUMBRA * shadow.y, reach);
     float lit = 0.0;
     for (int i = 0; i < SHADOW_TAPS; ++i) {
         vec2 away = radius * next_of_disc(i, turn);
         lit += shadow_tap(vec3(at.xy + away, at.z + dot(slope, away)));
     }
-    return lit / float(SHADOW_TAPS);
+    // Few blockers of many fade in: what is thin is missed by some pixels' taps.
+    return mix(1.0, lit / float(SHADOW_TAPS), min(0.125 * blockers, 1.0));
 }
 #else
 float shadow_tap(vec3 at) { return texture(shadow_map, at); }
