@@ -224,7 +224,7 @@ float lit_fraction(vec3 at, vec3 n) {
         vec2 away = radius * next_of_disc(i, turn);
         lit += shadow_tap(vec3(at.xy + away, at.z + dot(slope, away)));
     }
-    // Few blockers of many fade in: what is thin is missed by some pixels' taps.
+    // Few blockers fade in, as some pixels' taps miss a thin object.
     return mix(1.0, lit / float(SHADOW_TAPS), min(0.125 * blockers, 1.0));
 }
 #else
