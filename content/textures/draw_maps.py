@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""draw_maps.py FOLDER: draws again the maps of the wing cases, the glitter card, the wooden tables and the oil that the
-scenes hold (wood.png as JPEG, quality 86). Always the same bytes."""
+"""draw_maps.py FOLDER: draws again the maps of the wing cases, the glitter card and the oil that the scenes hold. Always
+the same bytes."""
 import math, pathlib, random, struct, sys, zlib
 
 FOLDER = pathlib.Path(sys.argv[1])
@@ -76,33 +76,6 @@ def waves(seed, count, highest_x, highest_y):
     return lambda x, y: sum(math.sin(2 * math.pi * (a * x + b * y) + c) for a, b, c in terms) / math.sqrt(count / 2)
 
 
-def wood():
-    """Boards of walnut, their grain along u; pores as dents and rougher."""
-    bend, streak, cloud = waves(1, 6, 1, 3), waves(2, 24, 3, 90), waves(3, 8, 3, 9)
-
-    def colour(x, y):
-        board = math.floor(5 * y)
-        seam = min(abs(5 * y - board), abs(5 * y - board - 1)) < 0.012
-        x += 0.37 * board
-        ring = 0.5 + 0.5 * math.sin(2 * math.pi * (17 * y + 0.37 * board + 1.1 * bend(x, y)))
-        tone = 0.5 + 0.22 * (ring**3 - 0.35) + 0.1 * streak(x, y) + 0.09 * cloud(x, y) + 0.12 * math.sin(2.4 * board)
-        tone = 0 if seam else min(max(tone, 0), 1)
-        return tuple(byte(dark + tone * (light - dark)) for dark, light in ((0.25, 0.56), (0.15, 0.37), (0.1, 0.24)))
-
-    write_png("wood.png", map_of(512, 1024, colour))
-    random.seed(5)
-    size = 512
-    heights = [[0.0] * size for _ in range(size)]
-    for _ in range(1500):
-        dent(heights, random.uniform(0, size), random.uniform(0, size), random.uniform(8, 26), random.uniform(1.2, 1.9),
-             random.uniform(0.1, 0.55))
-    write_normals("wood_normals.png", heights, 0.35)
-    smear = waves(6, 8, 3, 3)
-    write_png("wood_gloss.png", [[(255, STEP * (byte(0.35 + 0.012 * smear(x / size, y / size)
-                                                     - 0.12 * min(heights[y][x], 0)) // STEP), 0)
-                                  for x in range(size)] for y in range(size)])
-
-
 def oil():
     """Thickness of oil that spreads on water, in its green channel: stirred, thin at its edge, none beyond."""
     stir_x, stir_y, depth, edge = waves(11, 6, 2, 2), waves(12, 6, 2, 2), waves(13, 6, 3, 3), waves(14, 8, 3, 3)
@@ -118,5 +91,5 @@ def oil():
     write_png("oil_thickness.png", map_of(512, 512, thickness))
 
 
-for draw in (beetle, glitter, wood, oil):
+for draw in (beetle, glitter, oil):
     draw()

@@ -141,11 +141,11 @@ const float PASSED = 1.2;  // distance from the centre over the object's
 // point.
 vec3 toward_point(float angle, vec3 aside, vec3 direction) { return sin(angle) * aside + cos(angle) * direction; }
 
-// Whether that point is farther from the centre than the object there. `least`: the ray's least distance from the
-// centre; the point's is least / sin(angle).
-bool lies_behind_object(float angle, vec3 aside, vec3 direction, float least) {
+// Whether that point is more than `times` as far from the centre as the object there. `least`: the ray's least distance
+// from the centre; the point's is least / sin(angle).
+bool lies_behind_object(float times, float angle, vec3 aside, vec3 direction, float least) {
     vec3 toward = toward_point(angle, aside, direction);
-    return textureLod(surrounding_nearness, toward, 0.0).r * least > sin(angle);
+    return textureLod(surrounding_nearness, toward, 0.0).r * least > times * sin(angle);
 }
 
 // The light from a direction: that of the object which the ray meets in place of `beyond`.
@@ -160,21 +160,20 @@ vec3 with_object_reflection(vec3 beyond, vec3 direction, float roughness) {
     float met = -1.0;  // an angle at which the ray is behind an object; below 0: none found
     for (int i = 1; i <= MARCH_STEPS && met < 0.0; ++i) {
         float angle = begin * (1.0 - float(i) / float(MARCH_STEPS));
-        if (lies_behind_object(angle, aside, direction, least)) met = angle;
+        if (lies_behind_object(1.0, angle, aside, direction, least)) met = angle;
     }
     if (met < 0.0) return beyond;
     float before = met + begin / float(MARCH_STEPS);
     for (int i = 0; i < HALVINGS; ++i) {
         float angle = 0.5 * (before + met);
-        if (lies_behind_object(angle, aside, direction, least)) met = angle;
+        if (lies_behind_object(1.0, angle, aside, direction, least)) met = angle;
         else before = angle;
     }
     // A ray that is far behind the object already where it first is behind it passes behind its outline.
-    vec3 toward = toward_point(met, aside, direction);
-    if (textureLod(surrounding_nearness, toward, 0.0).r * least > PASSED * sin(met)) return beyond;
+    if (lies_behind_object(PASSED, met, aside, direction, least)) return beyond;
     // The GGX lobe's angle, as in with_local_reflection(), plus the pixel's.
     float footprint = 2.0 * roughness * roughness + max(spread.x, max(spread.y, spread.z));
-    vec4 light = textureLod(surrounding_light, toward,
+    vec4 light = textureLod(surrounding_light, toward_point(met, aside, direction),
                             log2(max(footprint / surroundings.w, 1.0)));
     return beyond * (1.0 - light.a) + light.rgb;
 }
