@@ -57,14 +57,36 @@ LobeNodes lobe_nodes(float n_v, float roughness) {
 // The plane that a reflected ray meets: engine/render/reflections.h.
 TEXTURE_UNIT(17) uniform sampler2D plane_map;
 
-// Visibility of ambient light at a point of the plane, if the picture shows that point; else 1.
+#ifdef AMBIENT_OCCLUSION
+// x: visibility of ambient light at a point of the plane, in the picture at uv; y: whether the picture shows it there.
+vec2 visibility_seen(vec2 uv, float depth) {
+    vec3 texel = textureLod(visibility_map, uv, 0.0).xyz;
+    return vec2(texel.x, max(1.0 - abs(texel.z / depth - 1.0) * 30.0, 0.0));
+}
+#endif
+
+// Visibility of ambient light at a point of the plane, if the picture shows that point; else 1. Around a mirror's
+// objects, what hides a point from the camera would have an outline: the mean of points nearby fades to 1.
 float ambient_visibility_at(vec3 position) {
 #ifdef AMBIENT_OCCLUSION
     vec4 clip = view_projection * vec4(position, 1.0);
     vec2 uv = 0.5 + 0.5 * clip.xy / clip.w;
     if (clip.w <= 0.0 || any(greaterThan(abs(uv - 0.5), vec2(0.5)))) return 1.0;
-    vec3 texel = textureLod(visibility_map, uv, 0.0).xyz;
-    return mix(1.0, texel.x, max(1.0 - abs(texel.z / clip.w - 1.0) * 30.0, 0.0));
+#ifdef OBJECT_REFLECTIONS
+    const int TAPS = 8;
+    vec2 size = vec2(textureSize(visibility_map, 0));
+    vec2 reach = 0.04 * vec2(size.y / size.x, 1.0);
+    vec2 turn = vec2(1.0, 0.0);
+    vec2 sum = vec2(0.0);
+    for (int i = 0; i < TAPS; ++i) {
+        vec2 seen = visibility_seen(uv + reach * next_of_disc(i, TAPS, turn), clip.w);
+        sum += vec2(seen.x * seen.y, seen.y);
+    }
+    return 1.0 + (sum.x - sum.y) / float(TAPS);
+#else
+    vec2 seen = visibility_seen(uv, clip.w);
+    return mix(1.0, seen.x, seen.y);
+#endif
 #else
     return 1.0;
 #endif
@@ -104,16 +126,27 @@ vec3 plane_gloss(vec3 direction, float visibility) {
     return light * ((0.04 * dfg.x + dfg.y) * visibility);
 }
 
+#ifdef SHADOWS
+float plane_shadow(vec3 position) {
+    vec3 at = shadow_coordinates(position, plane_normal.xyz, lights[0].position.xyz);
+#ifdef OBJECT_REFLECTIONS
+    return lit_fraction(at, plane_normal.xyz);
+#else
+    return shadow_tap(at);
+#endif
+}
+#endif
+
 // The light from a direction: that of the plane, if the ray meets it, in place of the environment's. A rough surface
-// sees a blurred edge and map.
-vec3 with_local_reflection(vec3 environment_radiance, vec3 direction, float roughness) {
+// sees a blurred edge and map. `spread`: change of the direction over a pixel.
+vec3 with_local_reflection(vec3 environment_radiance, vec3 direction, float roughness, float spread) {
     vec3 from = (world_to_plane * vec4(world_position, 1.0)).xyz;
     vec3 along = mat3(world_to_plane) * direction;
     if (along.y >= 0.0 || from.y <= 0.0) return environment_radiance;
     float distance = from.y / -along.y;
     vec2 at = from.xz + distance * along.xz;
     // Width of a GGX lobe, half of whose light is within an angle of about its roughness squared, plus the pixel's.
-    float footprint = 2.0 * roughness * roughness * distance + plane_size.z * (distance + 1.0 / gl_FragCoord.w);
+    float footprint = (2.0 * roughness * roughness + spread) * distance + plane_size.z * (distance + 1.0 / gl_FragCoord.w);
     vec2 inside = clamp((plane_size.xy - abs(at)) / footprint + 0.5, 0.0, 1.0);
     float coverage = inside.x * inside.y;
     if (coverage <= 0.0) return environment_radiance;
@@ -121,7 +154,7 @@ vec3 with_local_reflection(vec3 environment_radiance, vec3 direction, float roug
     float visibility = ambient_visibility_at(met);
     vec3 light = visibility * plane_ambient.rgb;
 #ifdef SHADOWS
-    light += shadow_tap(shadow_coordinates(met, plane_normal.xyz, lights[0].position.xyz)) * plane_lamp.rgb;
+    light += plane_shadow(met) * plane_lamp.rgb;
 #endif
     return mix(environment_radiance, plane_albedo(at, footprint) * light + plane_gloss(direction, visibility), coverage);
 }
@@ -148,31 +181,39 @@ bool lies_behind_object(float times, float angle, vec3 aside, vec3 direction, fl
     return textureLod(surrounding_nearness, toward, 0.0).r * least > times * sin(angle);
 }
 
-// The light from a direction: that of the object which the ray meets in place of `beyond`.
-vec3 with_object_reflection(vec3 beyond, vec3 direction, float roughness) {
-    vec3 spread = fwidth(direction);
+// The light from a direction: that of the object which the ray meets in place of `beyond`. `spread`: change of the
+// direction over a pixel.
+vec3 with_object_reflection(vec3 beyond, vec3 direction, float roughness, float spread) {
     vec3 from = world_position - surroundings.xyz;
     float along = dot(from, direction);
     vec3 foot = from - along * direction;
     float least = max(length(foot), 1e-6);
     vec3 aside = foot / least;
     float begin = atan(least, along);
-    float met = -1.0;  // an angle at which the ray is behind an object; below 0: none found
+    float met = -1.0;     // an angle at which the ray meets an object; below 0: none found
+    float before = begin;  // the last angle, at which the ray is not behind an object, or far behind one
+    bool behind = false;
     for (int i = 1; i <= MARCH_STEPS && met < 0.0; ++i) {
         float angle = begin * (1.0 - float(i) / float(MARCH_STEPS));
-        if (lies_behind_object(1.0, angle, aside, direction, least)) met = angle;
+        bool was_behind = behind;
+        behind = lies_behind_object(1.0, angle, aside, direction, least);
+        if (behind) {
+            // Where a ray that was not behind the object comes to be behind it, or else this angle.
+            float found = angle;
+            float free = was_behind ? angle : before;
+            for (int j = 0; j < HALVINGS && !was_behind; ++j) {
+                float middle = 0.5 * (free + found);
+                if (lies_behind_object(1.0, middle, aside, direction, least)) found = middle;
+                else free = middle;
+            }
+            // A ray that is far behind the object already there passes behind its outline, and may meet another one.
+            if (!lies_behind_object(PASSED, found, aside, direction, least)) met = found;
+        }
+        before = angle;
     }
     if (met < 0.0) return beyond;
-    float before = met + begin / float(MARCH_STEPS);
-    for (int i = 0; i < HALVINGS; ++i) {
-        float angle = 0.5 * (before + met);
-        if (lies_behind_object(1.0, angle, aside, direction, least)) met = angle;
-        else before = angle;
-    }
-    // A ray that is far behind the object already where it first is behind it passes behind its outline.
-    if (lies_behind_object(PASSED, met, aside, direction, least)) return beyond;
     // The GGX lobe's angle, as in with_local_reflection(), plus the pixel's.
-    float footprint = 2.0 * roughness * roughness + max(spread.x, max(spread.y, spread.z));
+    float footprint = 2.0 * roughness * roughness + spread;
     vec4 light = textureLod(surrounding_light, toward_point(met, aside, direction),
                             log2(max(footprint / surroundings.w, 1.0)));
     return beyond * (1.0 - light.a) + light.rgb;
@@ -202,11 +243,16 @@ vec3 with_surroundings(vec3 light, vec3 direction, float roughness) {
     float cosine = abs(dot(direction, normalize(world_normal)));
     light *= clamp(pow(cosine + visible, exp2(-16.0 * roughness - 1.0)) - 1.0 + visible, 0.0, 1.0);
 #endif
+    float spread = 0.0;
+#ifdef OBJECT_REFLECTIONS
+    vec3 change = fwidth(direction);
+    spread = max(change.x, max(change.y, change.z));
+#endif
 #ifdef LOCAL_REFLECTIONS
-    light = with_local_reflection(light, direction, roughness);
+    light = with_local_reflection(light, direction, roughness, spread);
 #endif
 #ifdef OBJECT_REFLECTIONS
-    light = with_object_reflection(light, direction, roughness);
+    light = with_object_reflection(light, direction, roughness, spread);
 #endif
     return light;
 }

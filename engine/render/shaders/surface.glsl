@@ -4,8 +4,14 @@
 
 const float PI = 3.14159265358979;
 
+// A mirror among objects is shaded at each sample: what it shows has outlines of its own.
+#ifdef OBJECT_REFLECTIONS
+sample in vec3 world_position;
+sample in vec3 world_normal;
+#else
 in vec3 world_position;
 in vec3 world_normal;
+#endif
 #ifdef NORMAL_MAP
 in vec4 world_tangent;
 #endif
@@ -154,6 +160,12 @@ void read_screen_visibility() {}
 #endif
 float ambient_visibility() { return screen_visibility.x; }
 
+// Points of a disc at equal areas: Vogel's spiral. `turn` is rotated by the golden angle for the next one.
+vec2 next_of_disc(int i, int points, inout vec2 turn) {
+    turn = mat2(-0.7373688, 0.6754903, -0.6754903, -0.7373688) * turn;
+    return sqrt((float(i) + 0.5) / float(points)) * turn;
+}
+
 // The first directional light's shadow map.
 #ifdef SHADOWS
 #ifdef SOFT_SHADOWS
@@ -181,12 +193,6 @@ const int SHADOW_TAPS = 16;
 const float NARROWEST_PENUMBRA = 1.5;  // texels
 const float WIDEST_PENUMBRA = 24.0;
 
-// Points of a disc at equal areas: Vogel's spiral. `turn` is rotated by the golden angle for the next one.
-vec2 next_of_disc(int i, inout vec2 turn) {
-    turn = mat2(-0.7373688, 0.6754903, -0.6754903, -0.7373688) * turn;
-    return sqrt((float(i) + 0.5) / float(SHADOW_TAPS)) * turn;
-}
-
 // Change of the map's depth along its axes on a surface of normal n, as seen by the light.
 vec2 depth_slope(vec3 n) {
     mat3 axes = transpose(mat3(world_to_shadow));
@@ -210,7 +216,7 @@ float lit_fraction(vec3 at, vec3 n) {
     float blockers = 0.0;
     float depths = 0.0;
     for (int i = 0; i < SHADOW_TAPS; ++i) {
-        vec2 away = reach * next_of_disc(i, turn);
+        vec2 away = reach * next_of_disc(i, SHADOW_TAPS, turn);
         vec4 seen = textureGather(shadow_map, at.xy + away);
         vec4 blocks = 1.0 - step(vec4(at.z + dot(slope, away)), seen);
         blockers += dot(blocks, vec4(1.0));
@@ -221,7 +227,7 @@ float lit_fraction(vec3 at, vec3 n) {
     float radius = clamp(shadow.w * (at.z - depths / blockers), NARROWEST_PENUMBRA * shadow.y, reach);
     float lit = 0.0;
     for (int i = 0; i < SHADOW_TAPS; ++i) {
-        vec2 away = radius * next_of_disc(i, turn);
+        vec2 away = radius * next_of_disc(i, SHADOW_TAPS, turn);
         lit += shadow_tap(vec3(at.xy + away, at.z + dot(slope, away)));
     }
     // Few blockers fade in, as some pixels' taps miss a thin object.
