@@ -4,14 +4,8 @@
 
 const float PI = 3.14159265358979;
 
-// A mirror among objects is shaded at each sample: what it shows has outlines of its own.
-#ifdef OBJECT_REFLECTIONS
-sample in vec3 world_position;
-sample in vec3 world_normal;
-#else
 in vec3 world_position;
 in vec3 world_normal;
-#endif
 #ifdef NORMAL_MAP
 in vec4 world_tangent;
 #endif

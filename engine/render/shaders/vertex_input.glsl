@@ -5,13 +5,8 @@ layout(location = 0) in vec3 vertex_position;
 layout(location = 1) in vec3 vertex_normal;
 layout(location = 2) in vec4 vertex_tangent;
 
-#ifdef OBJECT_REFLECTIONS
-sample out vec3 world_position;
-sample out vec3 world_normal;
-#else
 out vec3 world_position;
 out vec3 world_normal;
-#endif
 
 #ifdef NORMAL_MAP
 out vec4 world_tangent;  // w: sign of the bitangent
