@@ -127,6 +127,7 @@ vec3 plane_gloss(vec3 direction, float visibility) {
 }
 
 #ifdef SHADOWS
+// Fraction of the lamp's light that reaches a point of the plane.
 float plane_shadow(vec3 position) {
     vec3 at = shadow_coordinates(position, plane_normal.xyz, lights[0].position.xyz);
 #ifdef OBJECT_REFLECTIONS
@@ -146,7 +147,8 @@ vec3 with_local_reflection(vec3 environment_radiance, vec3 direction, float roug
     float distance = from.y / -along.y;
     vec2 at = from.xz + distance * along.xz;
     // Width of a GGX lobe, half of whose light is within an angle of about its roughness squared, plus the pixel's.
-    float footprint = (2.0 * roughness * roughness + spread) * distance + plane_size.z * (distance + 1.0 / gl_FragCoord.w);
+    float footprint =
+        (2.0 * roughness * roughness + spread) * distance + plane_size.z * (distance + 1.0 / gl_FragCoord.w);
     vec2 inside = clamp((plane_size.xy - abs(at)) / footprint + 0.5, 0.0, 1.0);
     float coverage = inside.x * inside.y;
     if (coverage <= 0.0) return environment_radiance;
@@ -181,8 +183,18 @@ bool lies_behind_object(float times, float angle, vec3 aside, vec3 direction, fl
     return textureLod(surrounding_nearness, toward, 0.0).r * least > times * sin(angle);
 }
 
-// The light from a direction: that of the object which the ray meets in place of `beyond`. `spread`: change of the
-// direction over a pixel.
+// Where a ray comes to be behind an object, between an angle at which it is not and one at which it is.
+float first_behind_object(float before, float behind, vec3 aside, vec3 direction, float least) {
+    for (int i = 0; i < HALVINGS; ++i) {
+        float angle = 0.5 * (before + behind);
+        if (lies_behind_object(1.0, angle, aside, direction, least)) behind = angle;
+        else before = angle;
+    }
+    return behind;
+}
+
+// The light from a direction: the object's that the ray meets, in place of `beyond`. `spread`: change of the direction
+// over a pixel.
 vec3 with_object_reflection(vec3 beyond, vec3 direction, float roughness, float spread) {
     vec3 from = world_position - surroundings.xyz;
     float along = dot(from, direction);
@@ -190,24 +202,17 @@ vec3 with_object_reflection(vec3 beyond, vec3 direction, float roughness, float 
     float least = max(length(foot), 1e-6);
     vec3 aside = foot / least;
     float begin = atan(least, along);
-    float met = -1.0;     // an angle at which the ray meets an object; below 0: none found
-    float before = begin;  // the last angle, at which the ray is not behind an object, or far behind one
+    float met = -1.0;  // an angle at which the ray meets an object; below 0: none found
+    float before = begin;
     bool behind = false;
     for (int i = 1; i <= MARCH_STEPS && met < 0.0; ++i) {
         float angle = begin * (1.0 - float(i) / float(MARCH_STEPS));
         bool was_behind = behind;
         behind = lies_behind_object(1.0, angle, aside, direction, least);
         if (behind) {
-            // Where a ray that was not behind the object comes to be behind it, or else this angle.
-            float found = angle;
-            float free = was_behind ? angle : before;
-            for (int j = 0; j < HALVINGS && !was_behind; ++j) {
-                float middle = 0.5 * (free + found);
-                if (lies_behind_object(1.0, middle, aside, direction, least)) found = middle;
-                else free = middle;
-            }
+            float first = was_behind ? angle : first_behind_object(before, angle, aside, direction, least);
             // A ray that is far behind the object already there passes behind its outline, and may meet another one.
-            if (!lies_behind_object(PASSED, found, aside, direction, least)) met = found;
+            if (!lies_behind_object(PASSED, first, aside, direction, least)) met = first;
         }
         before = angle;
     }
