@@ -110,6 +110,11 @@ float max_anisotropy() {
     return largest;
 }
 
+float affordable_anisotropy() {
+    const auto* renderer = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
+    return is_software_renderer(renderer) ? 1.0F : max_anisotropy();
+}
+
 void Texture::Release::operator()(GLuint name) const {
     glDeleteTextures(1, &name);
     bound_state().forget(BoundState::Slot::Texture, name);

@@ -64,6 +64,10 @@ struct Sampling {
 /// The largest anisotropy; 1 without driver support.
 float max_anisotropy();
 
+/// The anisotropy to draw with: max_anisotropy(), but 1 on a software renderer. llvmpipe averages many more texels than
+/// a GPU: it took a quarter of a frame of textured objects, and seconds where coordinates change abruptly.
+float affordable_anisotropy();
+
 /// Which part of a texture an upload or a read means: all of a level's width and height, and `layers` layers (array),
 /// slices (volume) or faces (cube map: +X, −X, +Y, −Y, +Z, −Z) from `layer` on.
 struct TextureSlice {

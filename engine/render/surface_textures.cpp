@@ -98,7 +98,7 @@ gpu::Sampling sampling_of(const scene::ImportedTexture& texture) {
         sampling.filter = gpu::Filter::Nearest;
     } else if (texture.mipmaps) {
         sampling.filter = gpu::Filter::Trilinear;
-        sampling.anisotropy = std::min(kAnisotropy, gpu::max_anisotropy());
+        sampling.anisotropy = std::min(kAnisotropy, gpu::affordable_anisotropy());
     }
     return sampling;
 }

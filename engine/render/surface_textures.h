@@ -20,7 +20,7 @@ enum class TexelMeaning {
              ///< the sum of their slopes' variances
 };
 
-/// How an imported texture is sampled: as its file says, anisotropic where it has levels.
+/// How an imported texture is sampled: as its file says, anisotropic where it has levels, on a GPU.
 gpu::Sampling sampling_of(const scene::ImportedTexture& texture);
 
 /// An imported scene's textures on the GPU, uploaded on demand: one for each image, meaning and sampling.

@@ -85,9 +85,10 @@ const gpu::Texture& GrooveMap::moments(bool even) const {
     if (made) return *made;
     const bool levels = sparkle_ || (sampling_.mipmaps && !sampling_.nearest);
     gpu::Sampling sampling = render::sampling_of(sampling_);
-    // Software renderers average far more than a pixel when they filter anisotropically.
-    sampling.anisotropy = 1.0F;
-    if (sparkle_) sampling.filter = gpu::Filter::Nearest;
+    if (sparkle_) {
+        sampling.filter = gpu::Filter::Nearest;
+        sampling.anisotropy = 1.0F;
+    }
     made.emplace(
         gpu::TextureDesc{
             .format = gpu::Format::RGBA16, .width = image_->width, .height = image_->height, .levels = levels ? 0 : 1},
