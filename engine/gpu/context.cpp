@@ -147,4 +147,8 @@ bool is_software_renderer(std::string_view renderer) {
                        [&](const char* name) { return renderer.find(name) != std::string_view::npos; });
 }
 
+bool renders_in_software() {
+    return is_software_renderer(reinterpret_cast<const char*>(glGetString(GL_RENDERER)));
+}
+
 }  // namespace rowland::gpu

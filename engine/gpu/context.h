@@ -50,5 +50,7 @@ void require_context();
 
 /// Whether a renderer of this name (GL_RENDERER) is a CPU rasteriser: llvmpipe and its like.
 bool is_software_renderer(std::string_view renderer);
+/// Whether the current context's is one.
+bool renders_in_software();
 
 }  // namespace rowland::gpu

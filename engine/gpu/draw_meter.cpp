@@ -19,7 +19,7 @@ GLuint DrawMeter::Queries::at(std::size_t index) {
     return names_[index].get();
 }
 
-DrawMeter::DrawMeter() : software_(is_software_renderer(reinterpret_cast<const char*>(glGetString(GL_RENDERER)))) {}
+DrawMeter::DrawMeter() : software_(renders_in_software()) {}
 
 void DrawMeter::write_time(std::size_t query) {
     glQueryCounter(frame_->times.at(query), GL_TIMESTAMP);

@@ -41,8 +41,7 @@ void PassTimes::Release::operator()(GLuint name) const {
     glDeleteQueries(1, &name);
 }
 
-PassTimes::PassTimes()
-    : slot_(0), software_(is_software_renderer(reinterpret_cast<const char*>(glGetString(GL_RENDERER)))) {}
+PassTimes::PassTimes() : slot_(0), software_(renders_in_software()) {}
 
 void PassTimes::write_time(std::size_t query) {
     std::vector<Handle<Release>>& queries = ring_[*slot_].queries;

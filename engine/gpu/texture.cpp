@@ -111,8 +111,7 @@ float max_anisotropy() {
 }
 
 float affordable_anisotropy() {
-    const auto* renderer = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
-    return is_software_renderer(renderer) ? 1.0F : max_anisotropy();
+    return renders_in_software() ? 1.0F : max_anisotropy();
 }
 
 void Texture::Release::operator()(GLuint name) const {

@@ -193,8 +193,8 @@ float first_behind_object(float before, float behind, vec3 aside, vec3 direction
     return behind;
 }
 
-// The light from a direction: the object's that the ray meets, in place of `beyond`. `spread`: change of the direction
-// over a pixel.
+// Radiance from a direction: of the object that the ray meets, or `beyond` if it meets none. `spread`: change of the
+// direction over a pixel.
 vec3 with_object_reflection(vec3 beyond, vec3 direction, float roughness, float spread) {
     vec3 from = world_position - surroundings.xyz;
     float along = dot(from, direction);
