@@ -90,13 +90,12 @@ inline constexpr int kBlurredViews = 25;
 /// the light or the view is at the horizon, PHYSICS (14.8).
 double view_coordinate(double u, double v_g);
 
-/// k smoothed by normal distributions, over x and the deviation σ: the response to a light of that extent in one
-/// look-up. A 2D texture, GL_LINEAR, GL_CLAMP_TO_EDGE, three texels (the matrix's columns) per entry.
+/// The dimensions of the texture of a smoothed kernel: 2D, GL_LINEAR, GL_CLAMP_TO_EDGE.
 ///   s = ((x − begin)/(end − begin) (columns−1) + ½)/columns
 ///   t = (log₂(σ/narrowest)·levels_per_octave + ½)/levels
-/// Where k depends on the view, such a table for each of kBlurredViews, at view_coordinate() = 2j/(kBlurredViews−1)
+/// Where k depends on the view, such a texture for each of kBlurredViews, at view_coordinate() = 2j/(kBlurredViews−1)
 /// − 1.
-struct BlurredKernel {
+struct BlurLayout {
     double begin_nm = 0.0;
     double end_nm = 0.0;
     double narrowest_nm = 0.0;  ///< σ of level 0
@@ -104,7 +103,12 @@ struct BlurredKernel {
     int levels = 0;
     int levels_per_octave = kLevelsPerOctave;
     int views = 1;
-    double pitch_nm = 0.0;          ///< of the grating
+    double pitch_nm = 0.0;  ///< of the grating
+};
+
+/// k smoothed by normal distributions, over x and the deviation σ: the response to a light of that extent in one
+/// look-up. Three texels (the matrix's columns) per entry.
+struct BlurredKernel : BlurLayout {
     std::vector<glm::mat3> values;  ///< per nm; view by view, level by level
 
     /// The value that the texture unit interpolates: 0 at the table's ends, and no narrower than a column.
@@ -117,10 +121,15 @@ struct BlurredKernel {
 BlurredKernel blur(const KernelTable& kernel, double pitch_nm, double widest_nm, int columns = 2048,
                    int levels_per_octave = kLevelsPerOctave);
 
-/// blur() for lights and pixels on a grating of this pitch: deviations of u up to .2, at most `most_columns` columns. A
-/// kernel of several views gets half as many columns and one level per octave fewer.
+/// The layout for lights and pixels on a grating of this pitch: deviations of u up to .2, at most `most_columns`
+/// columns. A kernel of several views gets half as many columns and one level per octave fewer.
+BlurLayout layout_for_lights(const KernelTable& kernel, double pitch_nm, int most_columns = 4096,
+                             int levels_per_octave = kLevelsPerOctave);
+BlurredKernel blur(const KernelTable& kernel, const BlurLayout& layout);
 BlurredKernel blur_for_lights(const KernelTable& kernel, double pitch_nm, int most_columns = 4096,
                               int levels_per_octave = kLevelsPerOctave);
+/// The products of a smoothed kernel's values and light of one colour, as (X, Y, Z, 0), in a third of the time.
+std::vector<glm::vec4> blur_colour(const KernelTable& kernel, const BlurLayout& layout, const glm::vec3& colour);
 
 /// The uniforms of shaders/kernel.glsl, which looks up u = x/d instead of x.
 struct KernelUniforms {
@@ -128,9 +137,10 @@ struct KernelUniforms {
     glm::vec2 rows{0.0F};        ///< scale and offset from log2(deviation of u) to t
     glm::vec2 reach{0.0F};       ///< centre and half-width of the |u| where k is not 0
 };
-KernelUniforms kernel_uniforms(const KernelTable& kernel, const BlurredKernel& blurred);
+KernelUniforms kernel_uniforms(const KernelTable& kernel, const BlurLayout& layout);
 /// The uniform `kernel_views` of shaders/kernel.glsl under KERNEL_VIEWS: factors of the layer and of the view's
-/// position from 0 to 1, and offset, to r, for a 3D texture of `layers` times the kernel's views.
-glm::vec3 kernel_views(const BlurredKernel& blurred, std::size_t layers);
+/// position from 0 to 1, and offset, to r, for a 3D texture of `layers` times the kernel's views. `first`: the layer
+/// that the texture begins with.
+glm::vec3 kernel_views(const BlurLayout& layout, std::size_t layers, std::size_t first = 0);
 
 }  // namespace rowland::diffraction

@@ -1,5 +1,6 @@
 #include "modules/diffraction/model/lattice.h"
 
+#include <Eigen/Core>
 #include <array>
 #include <cmath>
 #include <complex>
@@ -44,15 +45,14 @@ std::vector<double> efficiencies_of(const ApertureProfile& aperture, const Latti
                    groove_orders(SlitProfile{aperture.height_nm}, glm::length(lattice.b_nm), orders, wavelength_nm));
 }
 
-/// exp(−2πi j/count) for j < count.
-std::vector<Amplitude> roots_of_unity(int count) {
+/// exp(−2πi m j/count) of sample j < count, a row each, and order m, a column each.
+Eigen::MatrixXcd fourier_matrix(int count, int orders) {
     std::vector<Amplitude> roots;
     for (int j = 0; j < count; ++j) roots.push_back(std::polar(1.0, -2.0 * pi * j / count));
-    return roots;
-}
-
-std::size_t modulo(int value, int count) {
-    return static_cast<std::size_t>((value % count + count) % count);
+    return Eigen::MatrixXcd::NullaryExpr(count, 2 * orders + 1, [&](Eigen::Index j, Eigen::Index column) {
+        const Eigen::Index turns = (column - orders) * j % count;
+        return roots[static_cast<std::size_t>(turns < 0 ? turns + count : turns)];
+    });
 }
 
 /// |DFT(e^(iφ))|² of one cell: first along the rows, then across them.
@@ -63,30 +63,15 @@ std::vector<double> efficiencies_of(const HeightMap& map, const Lattice&, int or
     for (std::size_t height = 0; height < reflected.size(); ++height)
         reflected[height] =
             std::polar(1.0, 4.0 * pi * map.depth_nm / wavelength_nm * static_cast<double>(height) / 255.0);
-    const std::vector<Amplitude> roots_a = roots_of_unity(map.columns);
-    const std::vector<Amplitude> roots_b = roots_of_unity(map.rows);
-    const int columns = 2 * orders + 1;
-    const auto count = static_cast<std::size_t>(columns);
-    std::vector<Amplitude> sums(count * count);
-    for (int row = 0; row < map.rows; ++row) {
-        const std::uint8_t* heights = map.heights.data() + static_cast<std::ptrdiff_t>(row) * map.columns;
-        for (int m = -orders; m <= orders; ++m) {
-            Amplitude along = 0.0;
-            const std::size_t step = modulo(m, map.columns);
-            std::size_t root = 0;
-            for (int column = 0; column < map.columns; ++column) {
-                along += reflected[heights[column]] * roots_a[root];
-                root += step;
-                if (root >= roots_a.size()) root -= roots_a.size();
-            }
-            for (int k = -orders; k <= orders; ++k)  // rows run against b
-                sums[modulo(k + orders, columns) * count + static_cast<std::size_t>(m + orders)] +=
-                    along * roots_b[modulo(-k * row, map.rows)];
-        }
-    }
+    const auto cell = Eigen::MatrixXcd::NullaryExpr(map.rows, map.columns, [&](Eigen::Index row, Eigen::Index column) {
+        return reflected[map.heights[static_cast<std::size_t>(row * map.columns + column)]];
+    });
+    const Eigen::MatrixXcd along_rows = cell * fourier_matrix(map.columns, orders);
+    // Rows run against b, so the exponent's sign is the other one. A column for each k.
+    const Eigen::MatrixXcd sums = along_rows.transpose() * fourier_matrix(map.rows, orders).conjugate();
     std::vector<double> efficiencies;
     const auto cells = static_cast<double>(map.heights.size());
-    for (const Amplitude& sum : sums) efficiencies.push_back(std::norm(sum / cells));
+    for (const Amplitude& sum : sums.reshaped()) efficiencies.push_back(std::norm(sum / cells));
     return efficiencies;
 }
 

@@ -66,15 +66,14 @@ nlohmann::json describe(const GrooveLobe& lobe) {
     return {{"type", "flat"}};
 }
 
-/// The dimensions of the texture that blur_for_lights() makes; its values follow from the kernel.
+/// The dimensions of the texture of the smoothed kernel; its values follow from the kernel.
 nlohmann::json smoothing(const KernelTable& kernel, double pitch_nm) {
-    const BlurredKernel blurred = blur_for_lights(kernel, pitch_nm);
-    nlohmann::json json = {{"begin_nm", blurred.begin_nm},         {"end_nm", blurred.end_nm},
-                           {"narrowest_nm", blurred.narrowest_nm}, {"levels_per_octave", blurred.levels_per_octave},
-                           {"columns", blurred.columns},           {"levels", blurred.levels}};
-    if (blurred.views > 1)
-        for (int view = 0; view < blurred.views; ++view)
-            json["views"].push_back(2.0 * view / (blurred.views - 1) - 1.0);
+    const BlurLayout layout = layout_for_lights(kernel, pitch_nm);
+    nlohmann::json json = {{"begin_nm", layout.begin_nm},         {"end_nm", layout.end_nm},
+                           {"narrowest_nm", layout.narrowest_nm}, {"levels_per_octave", layout.levels_per_octave},
+                           {"columns", layout.columns},           {"levels", layout.levels}};
+    if (layout.views > 1)
+        for (int view = 0; view < layout.views; ++view) json["views"].push_back(2.0 * view / (layout.views - 1) - 1.0);
     return json;
 }
 

@@ -50,40 +50,42 @@ GpuKernel::GpuKernel(std::shared_ptr<const CookedMaterial> cooked, const glm::dm
     : cooked_(std::move(cooked)),
       xyz_to_kernel_(xyz_to_kernel(*cooked_, xyz_to_working)),
       zero_order_(xyz_to_kernel_ * cooked_->zero_order_xyz),
-      working_to_rec709_(glm::inverse(xyz_to_working * colour::rec709_to_xyz())) {}
+      working_to_rec709_(glm::inverse(xyz_to_working * colour::rec709_to_xyz())),
+      layout_(layout_for_lights(cooked_->kernel, cooked_->material.grating.pitch_nm)),
+      uniforms_(kernel_uniforms(cooked_->kernel, layout_)) {}
 
-const GpuKernel::Blurred& GpuKernel::blurred() const {
-    if (!blurred_) {
-        const KernelTable kernel = in_space(cooked_->kernel, xyz_to_kernel_);
-        blurred_.emplace(
-            Blurred{.kernel = blur_for_lights(kernel, cooked_->material.grating.pitch_nm), .uniforms = {}});
-        blurred_->uniforms = kernel_uniforms(kernel, blurred_->kernel);
-    }
-    return *blurred_;
-}
-
-GpuKernel::Smoothed GpuKernel::smooth(std::span<const glm::vec3> light_colours) const {
-    const BlurredKernel& kernel = blurred().kernel;
+GpuKernel::Smoothed GpuKernel::smooth(std::span<const glm::vec3> light_colours, bool key_windows) const {
     // fp16 adds an error of 5e-4. With several views, that of the texture unit's 8-bit weights is larger.
-    const bool volume = kernel.views > 1;
-    Smoothed smoothed{
-        .texture = gpu::Texture({.kind = volume ? gpu::TextureKind::Volume : gpu::TextureKind::PlaneArray,
-                                 .format = volume ? gpu::Format::RGBA16F : gpu::Format::RGBA32F,
-                                 .width = kernel.columns,
-                                 .height = kernel.levels,
-                                 .depth = (kFirstColourLayer + static_cast<int>(light_colours.size())) * kernel.views},
-                                {.filter = gpu::Filter::Linear}),
-        .colours{light_colours.begin(), light_colours.end()}};
-    const auto upload = [&](const glm::vec3& colour, int layer) {
+    const bool volume = layout_.views > 1;
+    // Red, green and blue of all views take as much as 30 MB, and key lights' windows alone read them.
+    const std::size_t first = volume && !key_windows ? kFirstColourLayer : 0;
+    std::vector<glm::vec3> layers;
+    for (std::size_t c = first; c < kFirstColourLayer; ++c)
+        layers.push_back(glm::mat3(1.0F)[static_cast<glm::length_t>(c)]);
+    layers.insert(layers.end(), light_colours.begin(), light_colours.end());
+    const bool is_read = !layers.empty();
+    Smoothed smoothed{.texture = gpu::Texture({.kind = volume ? gpu::TextureKind::Volume : gpu::TextureKind::PlaneArray,
+                                               .format = volume ? gpu::Format::RGBA16F : gpu::Format::RGBA32F,
+                                               .width = is_read ? layout_.columns : 1,
+                                               .height = is_read ? layout_.levels : 1,
+                                               .depth = is_read ? static_cast<int>(layers.size()) * layout_.views : 1},
+                                              {.filter = gpu::Filter::Linear}),
+                      .first_layer = first,
+                      .layers = layers.size(),
+                      .colours{light_colours.begin(), light_colours.end()}};
+    const KernelTable kernel = in_space(cooked_->kernel, xyz_to_kernel_);
+    // Smoothing the matrices takes the time of two or three colours.
+    std::optional<BlurredKernel> whole;
+    if (layers.size() > 2) whole = blur(kernel, layout_);
+    for (std::size_t i = 0; i < layers.size(); ++i) {
         std::vector<glm::vec4> texels;
-        texels.reserve(kernel.values.size());
-        for (const glm::mat3& value : kernel.values) texels.emplace_back(value * colour, 0.0F);
+        if (whole)
+            for (const glm::mat3& value : whole->values) texels.emplace_back(value * layers[i], 0.0F);
+        else
+            texels = blur_colour(kernel, layout_, layers[i]);
         smoothed.texture.upload(std::span<const glm::vec4>(texels),
-                                {.layer = layer * kernel.views, .layers = kernel.views});
-    };
-    for (int c = 0; c < 3; ++c) upload(glm::mat3(1.0F)[c], c);
-    for (std::size_t i = 0; i < light_colours.size(); ++i)
-        upload(light_colours[i], kFirstColourLayer + static_cast<int>(i));
+                                {.layer = static_cast<int>(i) * layout_.views, .layers = layout_.views});
+    }
     return smoothed;
 }
 
@@ -123,21 +125,27 @@ void GpuKernel::set_lobe(const gpu::Program& program) const {
 }
 
 void GpuKernel::bind(const gpu::Program& program, std::span<const lighting::KeyLight> key_lights,
-                     std::span<const glm::vec3> light_colours) const {
+                     std::span<const glm::vec3> light_colours, bool key_windows) const {
+    const double pitch_nm = cooked_->material.grating.pitch_nm;
+    const auto make_lobes = [&] {
+        if (!blurred_) blurred_ = blur(in_space(cooked_->kernel, xyz_to_kernel_), layout_);
+        return GpuLobes(*blurred_, key_lights);
+    };
     if (program.has_uniform("lobe_scale_bias") && !key_lights.empty())
         last_used(
-            lobes_, [&](const GpuLobes& lobes) { return lobes.are_of(key_lights); },
-            [&] { return GpuLobes(blurred().kernel, key_lights); })
-            .bind(program, blurred().uniforms, blurred().kernel.pitch_nm);
+            lobes_, [&](const GpuLobes& lobes) { return lobes.are_of(key_lights); }, make_lobes)
+            .bind(program, uniforms_, pitch_nm);
     set_lobe(program);
     if (!program.has_uniform("kernel_scale_bias")) return;
-    if (!smoothed_ || !std::ranges::equal(smoothed_->colours, light_colours)) smoothed_ = smooth(light_colours);
+    const bool has_primaries = smoothed_ && smoothed_->first_layer == 0;
+    if (!smoothed_ || !std::ranges::equal(smoothed_->colours, light_colours) || (key_windows && !has_primaries))
+        smoothed_ = smooth(light_colours, key_windows || has_primaries);
     smoothed_->texture.bind(kKernelUnit);
-    const KernelUniforms& uniforms = blurred().uniforms;
-    program.set("kernel_scale_bias", uniforms.scale_bias);
-    program.set("kernel_rows", uniforms.rows);
-    program.set("kernel_reach", uniforms.reach);
-    program.set("kernel_views", kernel_views(blurred().kernel, kFirstColourLayer + light_colours.size()));
+    program.set("kernel_scale_bias", uniforms_.scale_bias);
+    program.set("kernel_rows", uniforms_.rows);
+    program.set("kernel_reach", uniforms_.reach);
+    program.set("kernel_views",
+                kernel_views(layout_, std::max<std::size_t>(smoothed_->layers, 1), smoothed_->first_layer));
     program.set("zero_order", zero_order_);
     program.set("working_to_rec709", working_to_rec709_);
 }

@@ -46,28 +46,28 @@ class GpuKernel {
     bool has_zero_order() const { return zero_order_ != glm::mat3(0.0F); }
     void add_defines(gpu::ProgramDesc& desc) const;
     /// Uploads the kernel when a program first reads it, and the key lights' tables when the lights change.
-    /// `light_colours`: see SurfaceLight.
+    /// `light_colours`: see SurfaceLight; `key_windows`: the program shades key lights by key_light_windows.glsl.
     void bind(const gpu::Program& program, std::span<const lighting::KeyLight> key_lights,
-              std::span<const glm::vec3> light_colours) const;
+              std::span<const glm::vec3> light_colours, bool key_windows) const;
 
  private:
-    struct Blurred {
-        BlurredKernel kernel;
-        KernelUniforms uniforms;
-    };
+    /// The kernel smoothed for lights.
     struct Smoothed {
         gpu::Texture texture;
-        std::vector<glm::vec3> colours;  ///< of its layers from the fourth on
+        std::size_t first_layer = 0;  ///< of the layers that kernel.glsl numbers, the one that the texture begins with
+        std::size_t layers = 0;
+        std::vector<glm::vec3> colours;  ///< of layers kFirstColourLayer and after
     };
-    const Blurred& blurred() const;
-    Smoothed smooth(std::span<const glm::vec3> light_colours) const;
+    Smoothed smooth(std::span<const glm::vec3> light_colours, bool key_windows) const;
     void set_lobe(const gpu::Program& program) const;
 
     std::shared_ptr<const CookedMaterial> cooked_;
     glm::dmat3 xyz_to_kernel_;  ///< the colour space of the kernel's values: kernel.glsl
     glm::mat3 zero_order_;
     glm::mat3 working_to_rec709_;
-    mutable std::optional<Blurred> blurred_;
+    BlurLayout layout_;
+    KernelUniforms uniforms_;
+    mutable std::optional<BlurredKernel> blurred_;  ///< once there are key lights
     mutable std::optional<Smoothed> smoothed_;
     mutable std::vector<GpuLobes> lobes_;  ///< of several probes, the last used first
 };

@@ -123,10 +123,13 @@ bool GpuMaterial::shades_key_lights(const gpu::ProgramDesc& desc) const {
 }
 
 /// The tables of key lights, one look-up for each, do not support order 0 or varying pitches.
+bool GpuMaterial::key_windows(const SurfaceState& state) const {
+    return key_lights_ > 0 && (kernel_.has_zero_order() || state.grooves);
+}
+
 std::string GpuMaterial::key_light_shader(const SurfaceState& state) const {
     if (pattern_) return "";  // pattern.glsl
-    return shader_file(kernel_.has_zero_order() || state.grooves ? "shaders/key_light_windows.glsl"
-                                                                 : "shaders/key_light_tables.glsl");
+    return shader_file(key_windows(state) ? "shaders/key_light_windows.glsl" : "shaders/key_light_tables.glsl");
 }
 
 void GpuMaterial::bind(const gpu::Program& program, const SurfaceLight& light, const SurfaceState& state) const {
@@ -134,7 +137,7 @@ void GpuMaterial::bind(const gpu::Program& program, const SurfaceLight& light, c
     if (pattern_)
         pattern_->bind(program, light.key_lights(key_lights_), light.light_colours());
     else
-        kernel_.bind(program, light.key_lights(key_lights_), light.light_colours());
+        kernel_.bind(program, light.key_lights(key_lights_), light.light_colours(), key_windows(state));
     light.bind_light_colours();
     if (key_lights_ > 0) light.bind_key_lights(key_lights_);
     if (state.grooves) state.grooves->bind(even_kernel_, program);

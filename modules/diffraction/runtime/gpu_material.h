@@ -120,6 +120,7 @@ class GpuMaterial {
  private:
     void add_defines(const SurfaceState& state, gpu::ProgramDesc& desc) const;
     bool shades_key_lights(const gpu::ProgramDesc& desc) const;
+    bool key_windows(const SurfaceState& state) const;
     std::string key_light_shader(const SurfaceState& state) const;
 
     std::uint64_t number_;  ///< another for each material

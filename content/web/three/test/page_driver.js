@@ -65,11 +65,15 @@ async function look() {
     return { url, data, colour: colourOf(data) };
 }
 
-/** The picture drawn anew; the reference begins again. */
-async function picture() {
+/** Draws a frame of what the page shows now; the reference begins again. */
+async function drawnAgain() {
     const drawn = frames();
     dispatchEvent(new Event("resize"));
     await until("a frame", () => frames() > drawn);
+}
+
+async function picture() {
+    await drawnAgain();
     return look();
 }
 
@@ -84,12 +88,15 @@ async function swipe(fingers) {
     const touch = (type, touchPoints) => devtools("Input.dispatchTouchEvent", { type, touchPoints });
     const at = (part) => fingers.map(([from, to], id) => ({ id, x: from[0] + part * (to[0] - from[0]), y: from[1] + part * (to[1] - from[1]) }));
     const before = pose();
-    const drawn = frames();
+    let lifted = 0;
+    const lift = () => ++lifted;
+    addEventListener("pointerup", lift);
     await touch("touchStart", at(0));
     for (const part of [0.25, 0.5, 0.75, 1]) await touch("touchMove", at(part));
     await touch("touchEnd", []);
-    await until("a frame after the touch", () => frames() > drawn);
-    await wait(1000);
+    await until("the fingers to be lifted", () => lifted === fingers.length);
+    removeEventListener("pointerup", lift);
+    await drawnAgain(); // a frame under way may have been drawn before the last move
     return { before, after: pose() };
 }
 
