@@ -176,9 +176,9 @@ async function wiped() {
     return { pictures: { drawn, reference }, part: seen.length / reference.data.length, drawn: mean(drawn), reference: mean(reference) };
 }
 
-/** A phone, upright, whose pixels are few: so many for each of CSS. */
-async function holdPhone(pixels = 1) {
-    await devtools("Emulation.setDeviceMetricsOverride", { width: 390, height: 844, deviceScaleFactor: pixels, mobile: true });
+/** A phone, upright, whose pixels are few: half as many as those of CSS along each side. */
+async function holdPhone() {
+    await devtools("Emulation.setDeviceMetricsOverride", { width: 390, height: 844, deviceScaleFactor: 0.5, mobile: true });
     await devtools("Emulation.setTouchEmulationEnabled", { enabled: true, maxTouchPoints: 2 });
     await until("the phone", () => innerWidth === 390);
 }
@@ -241,7 +241,7 @@ async function visit() {
         await image.decode();
         return post({ ...result, said: said(), alt: image.alt, size: [image.naturalWidth, image.naturalHeight], errors: [] });
     }
-    if (limits.has("phone")) await holdPhone(limits.has("foil") ? 0.5 : 1);
+    if (limits.has("phone")) await holdPhone();
     if (limits.has("link")) return post({ ...result, ...(await foilLinkVisit(result.pictures)) });
     if (limits.has("foil")) return post({ ...result, ...(await foilVisit(result.pictures)) });
     // Every flat sample; the ball's table takes seconds.
