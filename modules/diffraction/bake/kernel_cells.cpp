@@ -165,27 +165,27 @@ double stencil_variance(double deviation, std::size_t width) {
     return std::max(kLeast, (deviation * deviation - 0.25 - (square - 1.0) / 6.0) / square - 1.0 / 12.0);
 }
 
+using Columns = std::vector<glm::mat3>;
+
 /// sum += factor · value
-template <typename Value>
-void add(Value& sum, float factor, const Value& value) {
+void add(glm::mat3& sum, float factor, const glm::mat3& value) {
     float* const to = glm::value_ptr(sum);
     const float* const from = glm::value_ptr(value);
-    for (std::size_t i = 0; i < sizeof(Value) / sizeof(float); ++i) to[i] += factor * from[i];
+    for (int i = 0; i < 9; ++i) to[i] += factor * from[i];
 }
 
 /// Adds what a symmetric stencil sums around column i; `columns` are 0 beyond their ends.
-template <typename Value>
-void add_sum(std::span<const Value> columns, std::size_t i, std::span<const float> weights, float factor, Value& sum) {
+void add_sum(std::span<const glm::mat3> columns, std::size_t i, std::span<const float> weights, float factor,
+             glm::mat3& sum) {
     const std::size_t reach = weights.size() - 1;
-    Value total = sum;  // in registers
+    glm::mat3 total = sum;  // in registers
     for (std::size_t j = std::max(i, reach) - reach; j < std::min(i + reach + 1, columns.size()); ++j)
         add(total, factor * weights[std::max(i, j) - std::min(i, j)], columns[j]);
     sum = total;
 }
 
 /// Adds the cubic through the four wide columns around a column; they are 0 beyond their ends.
-template <typename Value>
-void add_cubic(std::span<const Value> wide, std::size_t width, std::size_t column, Value& sum) {
+void add_cubic(std::span<const glm::mat3> wide, std::size_t width, std::size_t column, glm::mat3& sum) {
     const float t = static_cast<float>(column % width) / static_cast<float>(width);
     const std::array factors{-t * (t - 1.0F) * (t - 2.0F) / 6.0F, (t + 1.0F) * (t - 1.0F) * (t - 2.0F) / 2.0F,
                              -(t + 1.0F) * t * (t - 2.0F) / 2.0F, (t + 1.0F) * t * (t - 1.0F) / 6.0F};
@@ -209,59 +209,6 @@ BlurLayout layout_of(const KernelTable& kernel, double pitch_nm, double widest_n
     layout.begin_nm = kernel.begin_nm - margin;
     layout.end_nm = kernel.end_nm + margin;
     return layout;
-}
-
-/// Values in a layout; `value(mean)`: of the kernel's mean over a column.
-template <typename Value, typename ValueOf>
-std::vector<Value> blurred_values(const KernelTable& kernel, const BlurLayout& layout, const ValueOf& value) {
-    const auto size = static_cast<std::size_t>(layout.columns);
-    const double step = (layout.end_nm - layout.begin_nm) / (layout.columns - 1);
-    const auto levels = static_cast<std::size_t>(layout.levels);
-    const auto views = static_cast<std::size_t>(layout.views);
-    const auto x_of = [&](std::size_t column) { return layout.begin_nm + static_cast<double>(column) * step; };
-    const auto kernel_views = static_cast<std::size_t>(kernel.views);
-    std::vector<Value> means(kernel_views * size);
-    parallel_for(kernel_views, [&](std::size_t view) {
-        for (std::size_t i = 0; i < size; ++i)
-            means[view * size + i] = value(kernel.average(x_of(i) - 0.5 * step, x_of(i) + 0.5 * step,
-                                                          EfficiencyGrid::view_at(static_cast<int>(view))));
-    });
-    std::vector<Value> values(views * levels * size, Value(0.0F));
-    parallel_for(levels, [&](std::size_t level) {
-        const double deviation =
-            layout.narrowest_nm * std::exp2(static_cast<double>(level) / layout.levels_per_octave) / step;
-        const std::size_t width = wide_column(deviation);
-        const std::vector<float> weights = stencil(std::sqrt(stencil_variance(deviation, width)));
-        // Means under triangles leave little of what would be an alias.
-        std::vector<float> triangle(width);
-        for (std::size_t i = 0; i < width; ++i)
-            triangle[i] = static_cast<float>(width - i) / static_cast<float>(width * width);
-        const std::size_t count = (size + width - 1) / width + 1;
-        std::vector<Value> wide(kernel_views * count, Value(0.0F));
-        const auto wide_of = [&](std::size_t view) {
-            return std::span<const Value>(wide).subspan(view * count, count);
-        };
-        for (std::size_t view = 0; view < kernel_views; ++view)
-            for (std::size_t i = 0; i < count; ++i)
-                add_sum(std::span<const Value>(means).subspan(view * size, size), i * width, triangle, 1.0F,
-                        wide[view * count + i]);
-        for (std::size_t view = 0; view < views; ++view) {
-            const double coordinate = 2.0 * static_cast<double>(view) / (kBlurredViews - 1) - 1.0;
-            std::vector<Value> sums(count, Value(0.0F));
-            for (std::size_t i = 0; i < count; ++i) {
-                const double u = x_of(i * width) / layout.pitch_nm;
-                EfficiencyGrid::ViewCell cell;
-                if (views > 1)
-                    cell = EfficiencyGrid::view_cell(0.5 * (u + coordinate * std::max(2.0 - std::abs(u), 0.0)));
-                const auto part = static_cast<float>(cell.weight);
-                for (std::size_t j = 0; j < std::min(kernel_views, std::size_t{2}); ++j)
-                    add_sum(wide_of(cell.first + j), i, weights, j == 0 ? 1.0F - part : part, sums[i]);
-            }
-            for (std::size_t i = 0; i < size; ++i)
-                add_cubic(std::span<const Value>(sums), width, i, values[(view * levels + level) * size + i]);
-        }
-    });
-    return values;
 }
 
 }  // namespace
@@ -296,16 +243,55 @@ glm::dmat3 BlurredKernel::at(double x_nm, double deviation_nm, double v_g) const
 }
 
 BlurredKernel blur(const KernelTable& kernel, const BlurLayout& layout) {
-    return {layout, blurred_values<glm::mat3>(kernel, layout, [](const glm::dmat3& mean) { return glm::mat3(mean); })};
+    const auto size = static_cast<std::size_t>(layout.columns);
+    const double step = (layout.end_nm - layout.begin_nm) / (layout.columns - 1);
+    const auto levels = static_cast<std::size_t>(layout.levels);
+    const auto views = static_cast<std::size_t>(layout.views);
+    const auto x_of = [&](std::size_t column) { return layout.begin_nm + static_cast<double>(column) * step; };
+    const auto kernel_views = static_cast<std::size_t>(kernel.views);
+    Columns means(kernel_views * size);
+    parallel_for(kernel_views, [&](std::size_t view) {
+        for (std::size_t i = 0; i < size; ++i)
+            means[view * size + i] = kernel.average(x_of(i) - 0.5 * step, x_of(i) + 0.5 * step,
+                                                    EfficiencyGrid::view_at(static_cast<int>(view)));
+    });
+    BlurredKernel blurred{layout, Columns(views * levels * size, glm::mat3(0.0F))};
+    parallel_for(levels, [&](std::size_t level) {
+        const double deviation =
+            layout.narrowest_nm * std::exp2(static_cast<double>(level) / layout.levels_per_octave) / step;
+        const std::size_t width = wide_column(deviation);
+        const std::vector<float> weights = stencil(std::sqrt(stencil_variance(deviation, width)));
+        // Means under triangles leave little of what would be an alias.
+        std::vector<float> triangle(width);
+        for (std::size_t i = 0; i < width; ++i)
+            triangle[i] = static_cast<float>(width - i) / static_cast<float>(width * width);
+        const std::size_t count = (size + width - 1) / width + 1;
+        Columns wide(kernel_views * count, glm::mat3(0.0F));
+        const auto wide_of = [&](std::size_t view) { return std::span(wide).subspan(view * count, count); };
+        for (std::size_t view = 0; view < kernel_views; ++view)
+            for (std::size_t i = 0; i < count; ++i)
+                add_sum(std::span(means).subspan(view * size, size), i * width, triangle, 1.0F, wide_of(view)[i]);
+        for (std::size_t view = 0; view < views; ++view) {
+            const double coordinate = 2.0 * static_cast<double>(view) / (kBlurredViews - 1) - 1.0;
+            Columns sums(count, glm::mat3(0.0F));
+            for (std::size_t i = 0; i < count; ++i) {
+                const double u = x_of(i * width) / layout.pitch_nm;
+                EfficiencyGrid::ViewCell cell;
+                if (views > 1)
+                    cell = EfficiencyGrid::view_cell(0.5 * (u + coordinate * std::max(2.0 - std::abs(u), 0.0)));
+                const auto part = static_cast<float>(cell.weight);
+                for (std::size_t j = 0; j < std::min(kernel_views, std::size_t{2}); ++j)
+                    add_sum(wide_of(cell.first + j), i, weights, j == 0 ? 1.0F - part : part, sums[i]);
+            }
+            for (std::size_t i = 0; i < size; ++i)
+                add_cubic(sums, width, i, blurred.values[(view * levels + level) * size + i]);
+        }
+    });
+    return blurred;
 }
 
 BlurredKernel blur(const KernelTable& kernel, double pitch_nm, double widest_nm, int columns, int levels_per_octave) {
     return blur(kernel, layout_of(kernel, pitch_nm, widest_nm, columns, levels_per_octave));
-}
-
-std::vector<glm::vec4> blur_colour(const KernelTable& kernel, const BlurLayout& layout, const glm::vec3& colour) {
-    const auto lit = [&](const glm::dmat3& mean) { return glm::vec4(glm::vec3(mean * glm::dvec3(colour)), 0.0F); };
-    return blurred_values<glm::vec4>(kernel, layout, lit);
 }
 
 BlurLayout layout_for_lights(const KernelTable& kernel, double pitch_nm, int most_columns, int levels_per_octave) {

@@ -128,8 +128,6 @@ BlurLayout layout_for_lights(const KernelTable& kernel, double pitch_nm, int mos
 BlurredKernel blur(const KernelTable& kernel, const BlurLayout& layout);
 BlurredKernel blur_for_lights(const KernelTable& kernel, double pitch_nm, int most_columns = 4096,
                               int levels_per_octave = kLevelsPerOctave);
-/// The products of a smoothed kernel's values and light of one colour, as (X, Y, Z, 0), in a third of the time.
-std::vector<glm::vec4> blur_colour(const KernelTable& kernel, const BlurLayout& layout, const glm::vec3& colour);
 
 /// The uniforms of shaders/kernel.glsl, which looks up u = x/d instead of x.
 struct KernelUniforms {

@@ -54,6 +54,10 @@ GpuKernel::GpuKernel(std::shared_ptr<const CookedMaterial> cooked, const glm::dm
       layout_(layout_for_lights(cooked_->kernel, cooked_->material.grating.pitch_nm)),
       uniforms_(kernel_uniforms(cooked_->kernel, layout_)) {}
 
+BlurredKernel GpuKernel::blurred() const {
+    return blur(in_space(cooked_->kernel, xyz_to_kernel_), layout_);
+}
+
 GpuKernel::Smoothed GpuKernel::smooth(std::span<const glm::vec3> light_colours, bool key_windows) const {
     // fp16 adds an error of 5e-4. With several views, that of the texture unit's 8-bit weights is larger.
     const bool volume = layout_.views > 1;
@@ -63,26 +67,20 @@ GpuKernel::Smoothed GpuKernel::smooth(std::span<const glm::vec3> light_colours, 
     for (std::size_t c = first; c < kFirstColourLayer; ++c)
         layers.push_back(glm::mat3(1.0F)[static_cast<glm::length_t>(c)]);
     layers.insert(layers.end(), light_colours.begin(), light_colours.end());
-    const bool is_read = !layers.empty();
+    if (layers.empty()) layers.emplace_back(0.0F);
     Smoothed smoothed{.texture = gpu::Texture({.kind = volume ? gpu::TextureKind::Volume : gpu::TextureKind::PlaneArray,
                                                .format = volume ? gpu::Format::RGBA16F : gpu::Format::RGBA32F,
-                                               .width = is_read ? layout_.columns : 1,
-                                               .height = is_read ? layout_.levels : 1,
-                                               .depth = is_read ? static_cast<int>(layers.size()) * layout_.views : 1},
+                                               .width = layout_.columns,
+                                               .height = layout_.levels,
+                                               .depth = static_cast<int>(layers.size()) * layout_.views},
                                               {.filter = gpu::Filter::Linear}),
                       .first_layer = first,
-                      .layers = layers.size(),
                       .colours{light_colours.begin(), light_colours.end()}};
-    const KernelTable kernel = in_space(cooked_->kernel, xyz_to_kernel_);
-    // Smoothing the matrices takes the time of two or three colours.
-    std::optional<BlurredKernel> whole;
-    if (layers.size() > 2) whole = blur(kernel, layout_);
+    const BlurredKernel kernel = blurred();
     for (std::size_t i = 0; i < layers.size(); ++i) {
         std::vector<glm::vec4> texels;
-        if (whole)
-            for (const glm::mat3& value : whole->values) texels.emplace_back(value * layers[i], 0.0F);
-        else
-            texels = blur_colour(kernel, layout_, layers[i]);
+        texels.reserve(kernel.values.size());
+        for (const glm::mat3& value : kernel.values) texels.emplace_back(value * layers[i], 0.0F);
         smoothed.texture.upload(std::span<const glm::vec4>(texels),
                                 {.layer = static_cast<int>(i) * layout_.views, .layers = layout_.views});
     }
@@ -128,7 +126,7 @@ void GpuKernel::bind(const gpu::Program& program, std::span<const lighting::KeyL
                      std::span<const glm::vec3> light_colours, bool key_windows) const {
     const double pitch_nm = cooked_->material.grating.pitch_nm;
     const auto make_lobes = [&] {
-        if (!blurred_) blurred_ = blur(in_space(cooked_->kernel, xyz_to_kernel_), layout_);
+        if (!blurred_) blurred_ = blurred();
         return GpuLobes(*blurred_, key_lights);
     };
     if (program.has_uniform("lobe_scale_bias") && !key_lights.empty())
@@ -144,8 +142,8 @@ void GpuKernel::bind(const gpu::Program& program, std::span<const lighting::KeyL
     program.set("kernel_scale_bias", uniforms_.scale_bias);
     program.set("kernel_rows", uniforms_.rows);
     program.set("kernel_reach", uniforms_.reach);
-    program.set("kernel_views",
-                kernel_views(layout_, std::max<std::size_t>(smoothed_->layers, 1), smoothed_->first_layer));
+    const auto layers = static_cast<std::size_t>(smoothed_->texture.desc().depth / layout_.views);
+    program.set("kernel_views", kernel_views(layout_, layers, smoothed_->first_layer));
     program.set("zero_order", zero_order_);
     program.set("working_to_rec709", working_to_rec709_);
 }

@@ -55,9 +55,9 @@ class GpuKernel {
     struct Smoothed {
         gpu::Texture texture;
         std::size_t first_layer = 0;  ///< of the layers that kernel.glsl numbers, the one that the texture begins with
-        std::size_t layers = 0;
         std::vector<glm::vec3> colours;  ///< of layers kFirstColourLayer and after
     };
+    BlurredKernel blurred() const;
     Smoothed smooth(std::span<const glm::vec3> light_colours, bool key_windows) const;
     void set_lobe(const gpu::Program& program) const;
 

@@ -100,28 +100,5 @@ TEST(BlurredKernel, IsSmoothedViewByView) {
     EXPECT_LT(largest_error(table, blurred, 12.0), 3e-4);
 }
 
-/// The largest difference of blur_colour() from the product, of the largest value.
-double largest_difference(const KernelTable& table) {
-    const glm::vec3 colour(0.9F, 0.25F, 0.5F);
-    const BlurredKernel blurred = blur_for_lights(table, kPitch, 512);
-    const std::vector<glm::vec4> lit = blur_colour(table, layout_for_lights(table, kPitch, 512), colour);
-    EXPECT_EQ(lit.size(), blurred.values.size());
-    float difference = 0.0F;
-    float largest = 0.0F;
-    for (std::size_t i = 0; i < lit.size(); ++i) {
-        const glm::vec3 expected = blurred.values[i] * colour;
-        for (int c = 0; c < 3; ++c) {
-            difference = std::max(difference, std::abs(lit[i][c] - expected[c]));
-            largest = std::max(largest, std::abs(expected[c]));
-        }
-    }
-    return static_cast<double>(difference / largest);
-}
-
-TEST(BlurredKernel, OfOneColourIsTheProduct) {
-    EXPECT_LT(largest_difference(made_up_table(1)), 2e-6);
-    EXPECT_LT(largest_difference(made_up_table(EfficiencyGrid::kViews)), 2e-6);
-}
-
 }  // namespace
 }  // namespace rowland::diffraction
