@@ -62,10 +62,9 @@ GpuKernel::Smoothed GpuKernel::smooth(std::span<const glm::vec3> light_colours, 
     // fp16 adds an error of 5e-4. With several views, that of the texture unit's 8-bit weights is larger.
     const bool volume = layout_.views > 1;
     // Red, green and blue of all views take as much as 30 MB, and key lights' windows alone read them.
-    const std::size_t first = volume && !key_windows ? kFirstColourLayer : 0;
+    const int first = volume && !key_windows ? kFirstColourLayer : 0;
     std::vector<glm::vec3> layers;
-    for (std::size_t c = first; c < kFirstColourLayer; ++c)
-        layers.push_back(glm::mat3(1.0F)[static_cast<glm::length_t>(c)]);
+    for (int c = first; c < kFirstColourLayer; ++c) layers.push_back(glm::mat3(1.0F)[c]);
     layers.insert(layers.end(), light_colours.begin(), light_colours.end());
     if (layers.empty()) layers.emplace_back(0.0F);
     Smoothed smoothed{.texture = gpu::Texture({.kind = volume ? gpu::TextureKind::Volume : gpu::TextureKind::PlaneArray,
@@ -76,7 +75,8 @@ GpuKernel::Smoothed GpuKernel::smooth(std::span<const glm::vec3> light_colours, 
                                               {.filter = gpu::Filter::Linear}),
                       .first_layer = first,
                       .colours{light_colours.begin(), light_colours.end()}};
-    const BlurredKernel kernel = blurred();
+    std::optional<BlurredKernel> made;
+    const BlurredKernel& kernel = blurred_ ? *blurred_ : made.emplace(blurred());
     for (std::size_t i = 0; i < layers.size(); ++i) {
         std::vector<glm::vec4> texels;
         texels.reserve(kernel.values.size());
@@ -125,8 +125,11 @@ void GpuKernel::set_lobe(const gpu::Program& program) const {
 void GpuKernel::bind(const gpu::Program& program, std::span<const lighting::KeyLight> key_lights,
                      std::span<const glm::vec3> light_colours, bool key_windows) const {
     const double pitch_nm = cooked_->material.grating.pitch_nm;
-    const auto make_lobes = [&] {
+    const auto keep_blurred = [&] {
         if (!blurred_) blurred_ = blurred();
+    };
+    const auto make_lobes = [&] {
+        keep_blurred();
         return GpuLobes(*blurred_, key_lights);
     };
     if (program.has_uniform("lobe_scale_bias") && !key_lights.empty())
@@ -136,14 +139,17 @@ void GpuKernel::bind(const gpu::Program& program, std::span<const lighting::KeyL
     set_lobe(program);
     if (!program.has_uniform("kernel_scale_bias")) return;
     const bool has_primaries = smoothed_ && smoothed_->first_layer == 0;
-    if (!smoothed_ || !std::ranges::equal(smoothed_->colours, light_colours) || (key_windows && !has_primaries))
+    if (!smoothed_ || !std::ranges::equal(smoothed_->colours, light_colours) || (key_windows && !has_primaries)) {
+        if (smoothed_) keep_blurred();  // colours that change once may change in every frame
         smoothed_ = smooth(light_colours, key_windows || has_primaries);
+    }
     smoothed_->texture.bind(kKernelUnit);
     program.set("kernel_scale_bias", uniforms_.scale_bias);
     program.set("kernel_rows", uniforms_.rows);
     program.set("kernel_reach", uniforms_.reach);
-    const auto layers = static_cast<std::size_t>(smoothed_->texture.desc().depth / layout_.views);
-    program.set("kernel_views", kernel_views(layout_, layers, smoothed_->first_layer));
+    const int layers = smoothed_->texture.desc().depth / layout_.views;
+    program.set("kernel_views", kernel_views(layout_, static_cast<std::size_t>(layers),
+                                             static_cast<std::size_t>(smoothed_->first_layer)));
     program.set("zero_order", zero_order_);
     program.set("working_to_rec709", working_to_rec709_);
 }

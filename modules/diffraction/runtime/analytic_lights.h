@@ -54,7 +54,7 @@ class GpuKernel {
     /// The kernel smoothed for lights.
     struct Smoothed {
         gpu::Texture texture;
-        std::size_t first_layer = 0;  ///< of the layers that kernel.glsl numbers, the one that the texture begins with
+        int first_layer = 0;  ///< of the layers that kernel.glsl numbers, the one that the texture begins with
         std::vector<glm::vec3> colours;  ///< of layers kFirstColourLayer and after
     };
     BlurredKernel blurred() const;
@@ -67,7 +67,7 @@ class GpuKernel {
     glm::mat3 working_to_rec709_;
     BlurLayout layout_;
     KernelUniforms uniforms_;
-    mutable std::optional<BlurredKernel> blurred_;  ///< once there are key lights
+    mutable std::optional<BlurredKernel> blurred_;  ///< once there are key lights, or colours have changed
     mutable std::optional<Smoothed> smoothed_;
     mutable std::vector<GpuLobes> lobes_;  ///< of several probes, the last used first
 };

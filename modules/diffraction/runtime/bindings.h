@@ -1,7 +1,5 @@
 #pragma once
 
-#include <cstddef>
-
 namespace rowland::diffraction {
 
 // As in shaders/. Units below 8 and bindings below 4 are the engine's.
@@ -13,7 +11,7 @@ inline constexpr unsigned kStreakSegmentBinding = 6;  ///< storage: numbered sep
 inline constexpr unsigned kTableUnit = 8;
 inline constexpr unsigned kWavelengthTableUnit = 9;
 inline constexpr unsigned kKernelUnit = 10;
-inline constexpr std::size_t kFirstColourLayer = 3;  ///< of the kernel's texture
+inline constexpr int kFirstColourLayer = 3;  ///< of the kernel's texture
 inline constexpr unsigned kMapUnit = 11;
 inline constexpr unsigned kSecondMapUnit = 9;     ///< of `circle`
 inline constexpr unsigned kVertexLightUnit = 12;  ///< of representations without storage

@@ -117,8 +117,7 @@ void SurfaceLight::set_light_colours(std::span<const glm::vec3> strengths) {
             return glm::all(glm::lessThan(glm::abs(other - colour), glm::vec3(kSameColour)));
         });
         colour_block_.light_layer_scale[i] =
-            glm::vec4(static_cast<float>(kFirstColourLayer) + static_cast<float>(same - light_colours_.begin()),
-                      largest, 0.0F, 0.0F);
+            glm::vec4(static_cast<float>(kFirstColourLayer + (same - light_colours_.begin())), largest, 0.0F, 0.0F);
         if (same == light_colours_.end()) light_colours_.push_back(colour);
     }
 }
