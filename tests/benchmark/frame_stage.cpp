@@ -183,6 +183,10 @@ FrameScene::FrameScene(FrameVariant variant, FrameStage& stage, bool software)
         world_.add(disc_,
                    diffraction::DiffractionSurface{.material = stage.material(variant_),
                                                    .grooves = variant_.groove_map ? stage.groove_map() : nullptr});
+    if (variant_.mean_colour) {
+        world_.add(world_.create(), diffraction::FrameBudget{1e9});
+        world_.add(disc_, diffraction::RecordedRung{0});
+    }
     if (variant_.shader == Shader::Film) add_film();
     if (variant_.worn) add_wear();
     if (variant_.in_box || variant_.between_boxes) add_box();

@@ -159,6 +159,8 @@ std::vector<FrameVariant> all_variants() {
             variants.push_back(with(grating(drawn, "", drawn.name), "/instance", &FrameVariant::instance));
         if (drawn.name == "arc" || drawn.name == "planar" || drawn.name == "direct")
             variants.push_back(with(grating(drawn, "", "plain"), "/shadow", &FrameVariant::shadow));
+        if (drawn.name == "direct")
+            variants.push_back(with(grating(drawn, "", "plain"), "/mean-colour", &FrameVariant::mean_colour));
         if (drawn.name == "planar/pits") {
             variants.push_back(grating(drawn, "/cover", "plain"));
             variants.back().material["cover"] = {{"ior", 1.58}};

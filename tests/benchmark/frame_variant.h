@@ -46,6 +46,7 @@ struct FrameVariant {
     Effect effect = Effect::None;
     bool groove_map = false;     ///< a texture varies the grooves' direction and pitch
     bool thickness_map = false;  ///< a texture varies the film's thickness from 100 nm to its own
+    bool mean_colour = false;    ///< of a grating: the cheapest rung of a frame budget
     bool worn = false;           ///< scratches, fingerprints and dust
     bool in_box = false;         ///< lit by the same probe, as that of a box around the disc
     bool between_boxes = false;  ///< lit by that and by the renderer's probe, half and half

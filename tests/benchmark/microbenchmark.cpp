@@ -176,9 +176,9 @@ nlohmann::ordered_json time_map_fills() {
         times[fmt::format("planar/pits/{}x{}x{}", size.azimuths, size.views.g, size.views.h)] =
             least_ms([&] { (void)diffraction::fill_lobe_map(light, spectrum, normal, size.azimuths); });
     }
-    for (const int side : {diffraction::kCoarseCircleSide, 104})
-        times[fmt::format("circle/{}", side)] =
-            least_ms([&] { (void)diffraction::fill_circle_map(light, cd.kernel, pitch_nm, {.side = side}); });
+    for (const diffraction::CircleMapSize& size : {diffraction::coarser({}), diffraction::CircleMapSize{}})
+        times[fmt::format("circle/{}", size.side)] =
+            least_ms([&] { (void)diffraction::fill_circle_map(light, cd.kernel, pitch_nm, size); });
     return times;
 }
 

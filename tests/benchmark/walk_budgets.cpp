@@ -68,7 +68,9 @@ Measured measure(Rooms& rooms, ecs::Entity holder, const scene::Camera& camera, 
     measured.largest_step = std::max(measured.largest_step, measured.settled_step);
     measured.ms = diffraction::quantile(times, 0.5);
     rooms.world().view<diffraction::DrawnRung>().each([&](ecs::Entity, const diffraction::DrawnRung& drawn) {
-        measured.samples[info(drawn.material()->cooked()->tables).name] += drawn.size.samples;
+        const diffraction::Rung& rung = drawn.rung();
+        measured.samples[rung.mean_colour ? "mean colour" : info(rung.material->cooked()->tables).name] +=
+            drawn.size.samples;
     });
     return measured;
 }

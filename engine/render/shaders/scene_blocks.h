@@ -84,6 +84,13 @@ static_assert(sizeof(FrameBlock) == 7 * 64 + 13 * 16 && sizeof(ObjectBlock) == 2
 TEXTURE_UNIT(15) uniform samplerCube key_irradiance_map;  // engine/render/light_maps.h
 #endif
 
+// glTF's KHR_lights_punctual: inverse square, a window at the range, a spot's cone. `inverse`: 1 / distance.
+float punctual_attenuation(Light light, float distance2, float inverse, vec3 l) {
+    float window = clamp(1.0 - distance2 * distance2 * light.position.w, 0.0, 1.0);
+    float cone = clamp(light.axis.w - dot(light.axis.xyz, l), 0.0, 1.0) * inverse;
+    return window * cone * cone;
+}
+
 // Irradiance / pi from the probe on a surface of normal n, at pixels or vertices: nine SH terms [Ramamoorthi & Hanrahan
 // 2001] and, under KEY_LIGHTS, the key lights.
 vec3 ambient_light(vec3 n) {

@@ -70,13 +70,6 @@ void add_light(vec3 irradiance, vec3 l, float variance, inout LitSurface surface
 }
 
 #if defined(DIRECTIONAL_LIGHTS) || defined(PUNCTUAL_LIGHTS)
-// glTF's KHR_lights_punctual: inverse square, a window at the range, a spot's cone. `inverse`: 1 / distance.
-float punctual_attenuation(Light light, float distance2, float inverse, vec3 l) {
-    float window = clamp(1.0 - distance2 * distance2 * light.position.w, 0.0, 1.0);
-    float cone = clamp(light.axis.w - dot(light.axis.xyz, l), 0.0, 1.0) * inverse;
-    return window * cone * cone;
-}
-
 // Radiance of the metallic-roughness base under the lights. The radiance of the material and of its coat goes to
 // `added`.
 vec3 direct_light(vec3 n, vec3 v, vec3 diffuse, vec3 f0, float roughness, inout vec3 added) {

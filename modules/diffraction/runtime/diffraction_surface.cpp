@@ -19,8 +19,8 @@ namespace rowland::diffraction {
 namespace {
 
 /// Takes over what the object's program depends on, seen or not. Another material's data is dropped.
-void take_surface(const DiffractionSurface& surface, const std::shared_ptr<const scene::Mesh>& mesh, bool skinned,
-                  SurfaceState& state) {
+void take_surface(const DiffractionSurface& surface, bool mean_colour, const std::shared_ptr<const scene::Mesh>& mesh,
+                  bool skinned, SurfaceState& state) {
     if (state.material != surface.material) {
         SurfaceState made;
         made.probe = state.probe;
@@ -30,6 +30,7 @@ void take_surface(const DiffractionSurface& surface, const std::shared_ptr<const
         state.material = surface.material;
         if (surface.material->reflected()) state.reflected = std::make_unique<SurfaceState>();
     }
+    if (std::exchange(state.mean_colour, mean_colour) != mean_colour) state.changed = true;
     if (state.mesh != mesh) {
         state.mesh = mesh;
         state.flat = skinned ? std::nullopt : flat_normal(*mesh);
@@ -44,8 +45,8 @@ void take_surface(const DiffractionSurface& surface, const std::shared_ptr<const
     state.groove_rotation = surface.groove_rotation;
     state.grooves = surface.grooves;
     if (state.reflected)
-        take_surface({surface.material->reflected(), surface.groove_rotation, surface.grooves}, mesh, skinned,
-                     *state.reflected);
+        take_surface({surface.material->reflected(), surface.groove_rotation, surface.grooves}, mean_colour, mesh,
+                     skinned, *state.reflected);
 }
 
 /// The same surface seen from its other side.
@@ -59,6 +60,10 @@ scene::Mesh turned_over(const scene::Mesh& mesh) {
 /// A sheet that transmits is lit on its other side (PHYSICS §12). Only a changed object's mesh is read.
 void update_lit_side(const GpuMaterial& material, const SurfaceObject& object, SurfaceLight& light,
                      SurfaceState& state) {
+    if (state.mean_colour) {
+        state.without_map = false;
+        return;
+    }
     if (!material.transmits() || !object.changed) return material.update(object, light, state);
     const scene::Mesh turned = turned_over(object.mesh);
     material.update({.mesh = turned,
@@ -83,11 +88,12 @@ void take(ecs::World& world, ecs::Entity entity) {
     const bool skinned = world.find<scene::Skin>(entity) != nullptr;
     auto& state = world.get<SurfaceState>(entity);
     const DrawnRung* drawn = world.find<DrawnRung>(entity);
-    if (drawn != nullptr) surface.material = drawn->material();
-    take_surface(surface, mesh, skinned, state);
-    if (!state.second) return;
-    if (drawn != nullptr) surface.material = drawn->next_material();
-    take_surface(surface, mesh, skinned, *state.second);
+    const auto take_into = [&](const Rung* rung, SurfaceState& slot) {
+        if (rung != nullptr) surface.material = rung->material;
+        take_surface(surface, rung != nullptr && rung->mean_colour, mesh, skinned, slot);
+    };
+    take_into(drawn != nullptr ? &drawn->rung() : nullptr, state);
+    if (state.second) take_into(drawn != nullptr ? &drawn->next_rung() : nullptr, *state.second);
 }
 
 SurfaceState& state_of(ecs::World& world, ecs::Entity entity, render::ProbeSlot slot) {
@@ -211,7 +217,7 @@ std::vector<render::LaterProgram> DiffractionSurfaceType::later_programs(ecs::Wo
     drawn->announced = control_->frame();
     for (const Rung& rung : *drawn->ladder) {
         SurfaceState as_rung;
-        take_surface({rung.material, state.groove_rotation, state.grooves}, state.mesh,
+        take_surface({rung.material, state.groove_rotation, state.grooves}, rung.mean_colour, state.mesh,
                      world.find<scene::Skin>(entity) != nullptr, as_rung);
         add(as_rung);
         if (as_rung.reflected) add(*as_rung.reflected);

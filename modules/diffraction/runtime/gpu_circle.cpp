@@ -70,8 +70,7 @@ struct Filling {
     glm::mat3 xyz_to_working;
 
     FilledMap operator()(const MapInput& input, MapDetail detail, const std::stop_token& stop) const {
-        CircleMapSize size = full;
-        if (detail == MapDetail::Coarse) size.side = std::min(size.side, kCoarseCircleSide);
+        const CircleMapSize size = detail == MapDetail::Full ? full : coarser(full);
         const Grating& grating = cooked->material.grating;
         CircleMap map = fill_circle_map(*input.texels, cooked->kernel, grating.pitch_nm, size, cooked->zero_order_xyz,
                                         grating.cover, stop);
@@ -80,8 +79,10 @@ struct Filling {
             for (glm::vec3& value : grid->xyz) value = xyz_to_working * value;
         return {.texels = terms_in_layout(map.terms, map.charts),
                 .second = rest_in_layout(map.remainder, map.charts),
-                .set_uniforms = [scales = glm::vec2(glm::dvec2(map.terms.scale(), map.remainder.scale()))](
-                                    const gpu::Program& program) { program.set("circle_map_scales", scales); }};
+                .set_uniforms = [scales = glm::vec4(map.terms.scale(), map.remainder.scale(), map.terms.view_scale(),
+                                                    map.remainder.view_scale())](const gpu::Program& program) {
+                    program.set("circle_map_scales", scales);
+                }};
     }
 };
 
@@ -109,8 +110,6 @@ void GpuCircle::describe(const SurfaceState& state, gpu::ProgramDesc& desc) cons
         if (!state.flat) desc.defines.push_back({"MATERIAL_CURVED_MIRROR", "1"});
     }
     desc.defines.push_back({"CHARTS", std::to_string(charts_)});
-    desc.defines.push_back({"VIEWS", std::to_string(size_.views)});
-    desc.defines.push_back({"REST_VIEWS", std::to_string(remainder_views(size_.views))});
     desc.defines.push_back({"ANGLES", std::to_string(size_.angles)});  // for half a turn
 }
 

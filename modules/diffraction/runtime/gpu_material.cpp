@@ -75,6 +75,9 @@ GpuMaterial::GpuMaterial(std::shared_ptr<const CookedMaterial> cooked, const glm
 }
 
 gpu::ProgramDesc GpuMaterial::program(const SurfaceState& state) const {
+    if (state.mean_colour)
+        return {.vertex = "modules/diffraction/shaders/mean.vert.glsl",
+                .fragment = "modules/diffraction/shaders/mean.frag.glsl"};
     gpu::ProgramDesc desc{.vertex = "modules/diffraction/shaders/grating.vert.glsl",
                           .fragment = "modules/diffraction/shaders/grating.frag.glsl"};
     describe(state, desc);
@@ -84,13 +87,14 @@ gpu::ProgramDesc GpuMaterial::program(const SurfaceState& state) const {
 
 std::uint64_t GpuMaterial::program_key(const SurfaceState& state) const {
     std::uint64_t key = number_;
-    for (const bool bit : {state.without_map, state.flat.has_value(), state.grooves != nullptr,
+    for (const bool bit : {state.mean_colour, state.without_map, state.flat.has_value(), state.grooves != nullptr,
                            state.grooves && state.grooves->uv_set() == 1, state.grooves && state.grooves->has_gaps()})
         key = 2 * key + (bit ? 1 : 0);
     return key;
 }
 
 std::uint64_t GpuMaterial::binding_key(const SurfaceState& state) const {
+    if (state.mean_colour) return 1;
     if (!has_common_tables(state)) return 0;
     std::uint64_t key = 1;
     for (const std::uint64_t read : {std::uint64_t{reinterpret_cast<std::uintptr_t>(state.map.shown().get())},
@@ -133,6 +137,9 @@ std::string GpuMaterial::key_light_shader(const SurfaceState& state) const {
 }
 
 void GpuMaterial::bind(const gpu::Program& program, const SurfaceLight& light, const SurfaceState& state) const {
+    program.set("base_weight", base_weight_);
+    program.set("reflectance", reflectance_);
+    if (state.mean_colour) return;
     bind_tables(program, state);
     if (pattern_)
         pattern_->bind(program, light.key_lights(key_lights_), light.light_colours());
@@ -142,8 +149,6 @@ void GpuMaterial::bind(const gpu::Program& program, const SurfaceLight& light, c
     if (key_lights_ > 0) light.bind_key_lights(key_lights_);
     if (state.grooves) state.grooves->bind(even_kernel_, program);
     program.set("mirror_weight", mirror_weight_);
-    program.set("base_weight", base_weight_);
-    program.set("reflectance", reflectance_);
     if (const auto& cover = cooked_->material.grating.cover)
         program.set("cover_square", static_cast<float>(cover->ior * cover->ior));
     program.set("groove_turn", glm::vec2(std::cos(state.groove_rotation), std::sin(state.groove_rotation)));

@@ -28,6 +28,7 @@ class GpuMaterial;
 /// Component: the data of one object with a grating, and their cache key.
 struct SurfaceState {
     std::shared_ptr<const GpuMaterial> material;
+    bool mean_colour = false;  ///< it has one colour for all views, the mean over them
     std::shared_ptr<const scene::Mesh> mesh;
     glm::mat3 orientation{0.0F};
     float groove_rotation = 0.0F;

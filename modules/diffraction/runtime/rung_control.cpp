@@ -13,18 +13,27 @@ namespace rowland::diffraction {
 
 namespace {
 
-/// What a draw costs besides the grating, in the units of shading_price(): the base, its light and its output.
+/// What a pixel costs besides the grating, in the units of shading_price(): the base, its light and its output.
 constexpr double kBasePrice = 40.0;
+/// A pixel of the mean colour.
+constexpr double kMeanColourPrice = 5.0;
 /// What a vertex costs: a third of a pixel of the base by AMD's compiler, a fifteenth on llvmpipe.
 constexpr double kVertexPrice = 5.0;
 
-/// Draws without a map, by a stand-in, are of another kind.
-std::uint64_t kind_of(const GpuMaterial& material, bool without_map) {
+/// Draws without a map, by a stand-in, are of another kind. All materials' mean colours are of one.
+std::uint64_t kind_of(const GpuMaterial& material, bool mean_colour, bool without_map) {
+    if (mean_colour) return 2;
     return reinterpret_cast<std::uintptr_t>(&material) | (without_map ? 1U : 0U);
 }
 
 double relative_error(const BudgetRecord& record) {
     return record.largest_error() / default_max_error(record.measure);
+}
+
+/// The recorded rung, or the best one.
+std::size_t rung_in(const Ladder& ladder, const RecordedRung* recorded) {
+    const std::size_t best = ladder.size() - 1;
+    return recorded == nullptr ? best : std::min(recorded->rung, best);
 }
 
 }  // namespace
@@ -44,15 +53,23 @@ std::shared_ptr<const Ladder> RungControl::ladder_of(const std::shared_ptr<const
     for (const CookedRung& rung : cooked.cheaper)
         ladder->push_back({.material = make_gpu_material(as_rung(cooked, rung), xyz_to_working_),
                            .error = relative_error(rung.measured),
-                           .price = rung.measured.price});
-    ladder->push_back({.material = material});
+                           .price = kBasePrice + rung.measured.price});
+    ladder->push_back({.material = material, .price = kBasePrice});
     if (cooked.measured) {
         ladder->back().error = relative_error(*cooked.measured);
-        ladder->back().price = cooked.measured->price;
+        ladder->back().price += cooked.measured->price;
+    }
+    if (!material->base().passes_light) {
+        const double of_black = 1.0 / default_max_error(ErrorMeasure::RelativeRms);
+        const double largest = std::ranges::max(*ladder, {}, &Rung::error).error;
+        ladder->insert(ladder->begin(), {.material = material,
+                                         .error = std::max(of_black, largest),
+                                         .price = kMeanColourPrice,
+                                         .mean_colour = true});
     }
     for (const Rung& rung : *ladder)
         for (const bool without_map : {false, true})
-            costs_.expect(kind_of(*rung.material, without_map), kBasePrice + rung.price);
+            costs_.expect(kind_of(*rung.material, rung.mean_colour, without_map), rung.price);
     kept = ladder;
     return ladder;
 }
@@ -83,7 +100,7 @@ void RungControl::take(ecs::World& world, std::span<const gpu::MeteredRun> runs)
 
 std::uint64_t RungControl::kind(ecs::World& world, ecs::Entity entity, render::ProbeSlot slot) const {
     const SurfaceState& drawn = world.get<SurfaceState>(entity).in(slot);
-    return kind_of(*drawn.material, drawn.without_map);
+    return kind_of(*drawn.material, drawn.mean_colour, drawn.without_map);
 }
 
 std::optional<float> RungControl::second_part(ecs::World& world, ecs::Entity entity) const {
@@ -104,7 +121,7 @@ ObjectRungs RungControl::rungs_of(const Candidate& candidate) const {
     ObjectRungs rungs{.shown = drawn.shown, .wanted = drawn.wanted, .fades = drawn.fade_frame > 0 || drawn.recorded};
     for (const Rung& rung : *drawn.ladder)
         rungs.options.push_back({.error = rung.error * candidate.size.samples,
-                                 .ms = costs_.ms(kind_of(*rung.material, false), candidate.size)});
+                                 .ms = costs_.ms(kind_of(*rung.material, rung.mean_colour, false), candidate.size)});
     return rungs;
 }
 
@@ -113,16 +130,15 @@ void RungControl::choose(ecs::World& world, std::span<const render::LitEntity> s
     world.view<DiffractionSurface, render::MeshInstance>().each(
         [&](ecs::Entity entity, const DiffractionSurface& surface, const render::MeshInstance&) {
             DrawnRung* drawn = world.find<DrawnRung>(entity);
+            const RecordedRung* recorded = world.find<RecordedRung>(entity);
             if (drawn == nullptr || drawn->ladder->back().material != surface.material) {
                 DrawnRung made{.ladder = ladder_of(surface.material)};
-                made.shown = made.wanted = made.ladder->size() - 1;
+                made.shown = made.wanted = rung_in(*made.ladder, recorded);
                 drawn = &world.add(entity, std::move(made));
             }
             drawn->may_fade = false;
-            const RecordedRung* recorded = world.find<RecordedRung>(entity);
             drawn->recorded = recorded != nullptr;
-            if (recorded != nullptr && drawn->fade_frame == 0)
-                drawn->wanted = std::min(recorded->rung, drawn->ladder->size() - 1);
+            if (recorded != nullptr && drawn->fade_frame == 0) drawn->wanted = rung_in(*drawn->ladder, recorded);
         });
     std::vector<Candidate> candidates;
     std::vector<ObjectRungs> objects;
@@ -135,18 +151,26 @@ void RungControl::choose(ecs::World& world, std::span<const render::LitEntity> s
         candidates.push_back(
             {drawn, {.samples = slots * drawn->size.samples, .vertices = slots * drawn->size.vertices}});
         objects.push_back(rungs_of(candidates.back()));
+        // Between two probes a rung would have to change at once.
+        if (!drawn->may_fade && !urgent_) {
+            objects.back().wanted = drawn->shown;
+            objects.back().fades = true;
+        }
     }
     chooser_.choose(objects, gratings_ms);
     double ms = 0.0;
+    double fastest_ms = 0.0;
     for (std::size_t i = 0; i < objects.size(); ++i) {
+        const std::vector<RungOption>& options = objects[i].options;
         candidates[i].drawn->wanted = objects[i].wanted;
-        ms += objects[i].options[objects[i].wanted].ms;
+        ms += options[objects[i].wanted].ms;
+        fastest_ms += std::ranges::min(options, {}, &RungOption::ms).ms;
     }
     write_report(candidates, ms);
 
-    // One slow frame is noise.
+    // One slow frame is noise. A time that cannot be met does not hurry.
     const double ms_at_least = std::min(report_.last_ms, std::exchange(ms_before_, report_.last_ms));
-    urgent_ = ms_at_least > kTooLong * gratings_ms;
+    urgent_ = ms_at_least > kTooLong * std::max(gratings_ms, fastest_ms);
 }
 
 void RungControl::write_report(std::span<const Candidate> candidates, double predicted_ms) {
@@ -169,8 +193,9 @@ void RungControl::write_report(std::span<const Candidate> candidates, double pre
 
 void RungControl::step_fade(DrawnRung& drawn, SurfaceState& state) const {
     if (!drawn.changes()) return;
-    const bool ready = state.fades && state.second && state.second->material == drawn.next_material() &&
-                       state.second->light_version && !state.second->without_map;
+    const bool ready = state.fades && state.second && state.second->material == drawn.next_rung().material &&
+                       state.second->mean_colour == drawn.next_rung().mean_colour && state.second->light_version &&
+                       !state.second->without_map;
     const int frames = drawn.frames_of_fade();
     if (drawn.fade_frame > 0 || ready)
         drawn.fade_frame += urgent_ && !drawn.recorded ? (frames + kLeastFadeFrames - 1) / kLeastFadeFrames : 1;

@@ -22,9 +22,11 @@ namespace rowland::diffraction {
 struct Rung {
     std::shared_ptr<const GpuMaterial> material;
     double error = 0.0;  ///< the largest that was measured, as a multiple of what budgets ask for by default
-    double price = 0.0;  ///< shading_price()
+    double price = 0.0;  ///< of a pixel, in the units of shading_price()
+    bool mean_colour = false;
 };
-/// From the cheapest to the material itself.
+/// From the cheapest to the material itself. The first one of an opaque material is its mean colour, whose error counts
+/// as that of a black grating, or of its worst other rung.
 using Ladder = std::vector<Rung>;
 
 /// Component: the rung that draws an object. While it fades to another, SurfaceState::second has that.
@@ -40,8 +42,8 @@ struct DrawnRung {
 
     bool changes() const { return wanted != shown; }
     int frames_of_fade() const;
-    const std::shared_ptr<const GpuMaterial>& material() const { return (*ladder)[shown].material; }
-    const std::shared_ptr<const GpuMaterial>& next_material() const { return (*ladder)[wanted].material; }
+    const Rung& rung() const { return (*ladder)[shown]; }
+    const Rung& next_rung() const { return (*ladder)[wanted]; }
 };
 
 /// Chooses the rungs of all objects in each frame so that their draws take no longer than a FrameBudget, as measured.
@@ -81,7 +83,9 @@ class RungControl final : public render::DrawControl {
     FrameBudgetReport report_;
     std::uint64_t frame_ = 0;
     double ms_before_ = 0.0;  ///< FrameBudgetReport::last_ms of the frame before
-    bool urgent_ = false;     ///< the time is exceeded: all fades end within kLeastFadeFrames
+    /// The time is exceeded and can be met: all fades end within kLeastFadeFrames, and objects between two probes change
+    /// at once.
+    bool urgent_ = false;
 };
 
 }  // namespace rowland::diffraction

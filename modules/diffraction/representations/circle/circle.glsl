@@ -1,9 +1,10 @@
 // A map over g in the world and v_g, Fourier terms of the normal's angle around g: circle_map.h. The program defines
-// CHARTS, VIEWS, REST_VIEWS and ANGLES. A look-up of the terms holds four components of their values, which follow each
+// CHARTS and ANGLES. A look-up of the terms holds four components of their values, which follow each
 // other: red, green and blue of the first term, red of the second. Look-ups lie side by side in the texture, charts
 // below each other. Filtering never reaches a neighbour, as the equator lies 1.5 texels inside.
 TEXTURE_UNIT(11) uniform sampler3D circle_map;
-uniform vec2 circle_map_scales;  // chart coordinates to texture coordinates, of the terms and of the rest
+// From chart coordinates (xy) and v_g (zw) to texture coordinates, of the terms (xz) and of the rest (yw).
+uniform vec4 circle_map_scales;
 uniform float map_scale;         // of the stored values
 
 const int TERMS = 5;
@@ -11,7 +12,7 @@ const int LOOK_UPS = 4;
 
 vec3 circle_terms(float chart, vec2 p, float v_g, float factors[5]) {
     vec2 st = 0.5 + p * circle_map_scales.x;
-    float r = 0.5 + v_g * (0.5 - 0.5 / float(VIEWS));
+    float r = 0.5 + v_g * circle_map_scales.z;
     vec3 sum = vec3(0.0);
     for (int look_up = 0; look_up < LOOK_UPS; ++look_up) {
         vec2 at = (st + vec2(look_up, chart)) / vec2(LOOK_UPS, CHARTS);
@@ -46,7 +47,7 @@ vec3 circle_rest_at(float chart, vec2 p, float v_g, vec2 t) {
     float low = floor(position);
     vec2 st = 0.5 + p * circle_map_scales.y;
     vec3 at = vec3((st.x + low) / float(REST_ANGLES), (st.y + chart) / float(CHARTS),
-                   0.5 + v_g * (0.5 - 0.5 / float(REST_VIEWS)));
+                   0.5 + v_g * circle_map_scales.w);
     vec3 first = textureLod(circle_rest, at, 0.0).rgb;
     at.x += 1.0 / float(REST_ANGLES);
     vec3 second = textureLod(circle_rest, at, 0.0).rgb;

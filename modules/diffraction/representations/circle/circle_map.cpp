@@ -102,6 +102,12 @@ int remainder_views(int views) {
     return std::max(8, views * 8 / 13);
 }
 
+CircleMapSize coarser(CircleMapSize size) {
+    constexpr CircleMapSize kCoarse{.side = 16, .views = 40};
+    return {
+        .side = std::min(size.side, kCoarse.side), .views = std::min(size.views, kCoarse.views), .angles = size.angles};
+}
+
 int rest_angles(int angles, bool covered) {
     return covered ? 2 * angles : angles;
 }

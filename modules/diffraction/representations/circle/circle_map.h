@@ -61,6 +61,8 @@ struct CircleGrid {
     std::size_t index(int chart, int function, int view, int row, int column) const;
     /// Scale of chart coordinates to texture coordinates: the equator lies 1½ texels inside the edge.
     double scale() const { return 0.5 - 1.5 / side; }
+    /// Scale of v_g to texture coordinates.
+    double view_scale() const { return 0.5 - 0.5 / views; }
 };
 
 /// The terms of a circle map: on 1, cos t, sin t, cos 2t, sin 2t.
@@ -109,8 +111,8 @@ int rest_angles(int angles, bool covered);
 /// grazing angles, where the series converges slowly.
 int circle_angles(const std::optional<Cover>& cover);
 
-/// The size of the map that is shown while a larger one is filled: it is filled within .1 s on two cores.
-inline constexpr int kCoarseCircleSide = 16;
+/// The size of the map that is shown while a larger one is filled.
+CircleMapSize coarser(CircleMapSize size);
 
 /// Multiples of the angle that a map is filled from.
 inline constexpr int kCircleMultiples = 13;

@@ -9,11 +9,10 @@ namespace {
 class Circle : public GratingPicture {
  protected:
     const ObjectMap& shown_map() { return world_.get<SurfaceState>(entity_).map; }
-    CircleMap map(const CookedMaterial& cooked, int largest_side = 1 << 20) const {
-        CircleMapSize size = std::get<CircleTables>(cooked.tables).size;
-        size.side = std::min(size.side, largest_side);
-        return fill_circle_map(*light_.texels, cooked.kernel, cooked.material.grating.pitch_nm, size,
-                               cooked.zero_order_xyz);
+    CircleMap map(const CookedMaterial& cooked, MapDetail detail = MapDetail::Full) const {
+        const CircleMapSize size = std::get<CircleTables>(cooked.tables).size;
+        return fill_circle_map(*light_.texels, cooked.kernel, cooked.material.grating.pitch_nm,
+                               detail == MapDetail::Full ? size : coarser(size), cooked.zero_order_xyz);
     }
 };
 
@@ -100,7 +99,7 @@ TEST_F(Circle, OnlyACurvedMirrorIsAveragedOverThePixel) {
 TEST_F(Circle, ACoarseMapIsShownUntilTheFullOneIsThere) {
     const CookedMaterial cooked = cook(kSlitCd, kCircle);
     show(cooked, 0.3, MapPace::Incremental);
-    expect_map(map(cooked, kCoarseCircleSide));
+    expect_map(map(cooked, MapDetail::Coarse));
     while (shown_map().is_filling()) draw();
     expect_map(map(cooked));
 }

@@ -16,6 +16,9 @@ BudgetRecord record(double error, double price) {
     return record;
 }
 
+/// The rungs of ladder_material().
+enum RungOfLadder : std::size_t { kMeanRung, kDirectRung, kArcRung, kMapRung };
+
 /// Drawn by key lights alone, by an arc table, or by the map of the whole probe.
 CookedMaterial ladder_material() {
     CookedMaterial top = cook(kCd, R"({"representation": "planar", "map_resolution": 32, "key_lights": 4})");
@@ -101,7 +104,7 @@ TEST_F(FrameBudgets, OneThatIsNeverReachedChangesNothing) {
     const std::vector<glm::vec4> without = settle();
     set_budget(1e9);
     EXPECT_LT(difference(settle(), without), 1e-6F);
-    EXPECT_EQ(rung(0), 2U);
+    EXPECT_EQ(rung(0), kMapRung);
     EXPECT_EQ(report().objects, 2);
     EXPECT_EQ(report().at_best, 2);
     EXPECT_NEAR(report().error, 0.01 / 0.05, 1e-12);
@@ -112,18 +115,65 @@ TEST_F(FrameBudgets, OneThatIsNeverReachedChangesNothing) {
 TEST_F(FrameBudgets, OneThatCannotBeMetDrawsTheCheapestRungs) {
     set_budget(1e-9);
     const std::vector<glm::vec4> cheapest = settle();
-    EXPECT_EQ(rung(0), 0U);
-    EXPECT_EQ(rung(1), 0U);
+    EXPECT_EQ(rung(0), kMeanRung);
+    EXPECT_EQ(rung(1), kMeanRung);
     EXPECT_EQ(report().at_best, 0);
     EXPECT_NEAR(report().error, 1.0 / 0.05, 1e-12);
     EXPECT_NEAR(report().least_error, 0.01 / 0.05, 1e-12);
     world_.destroy(budget_);
     const std::vector<glm::vec4> best = settle();
     EXPECT_GT(difference(cheapest, best), 0.01F);
+}
+
+TEST_F(FrameBudgets, ARungIsDrawnAsItsMaterial) {
+    for (const ecs::Entity disc : discs_) world_.add(disc, RecordedRung{kDirectRung});
+    set_budget(1e9);
+    const std::vector<glm::vec4> rung = settle();
+    world_.destroy(budget_);
     const auto material =
         make_gpu_material(cook(kCd, R"({"representation": "direct", "key_lights": 0})"), glm::dmat3(1.0));
     for (const ecs::Entity disc : discs_) world_.get<DiffractionSurface>(disc).material = material;
-    EXPECT_LT(difference(settle(), cheapest), 1e-5F);  // its program does not multiply by a part of the light
+    EXPECT_LT(difference(settle(), rung), 1e-5F);  // its program does not multiply by a part of the light
+}
+
+/// Of a sphere, whose normals vary. The matte surface is what a dielectric reflects beyond a black one.
+TEST_F(FrameBudgets, TheMeanColourIsThatOfAMatteSurface) {
+    const ecs::Entity lamp = world_.create();
+    world_.add(lamp, scene::Transform{.translation = {0.0F, 3.0F, 3.0F}});
+    world_.add(lamp, scene::PunctualLight{.intensity = {20.0F, 10.0F, 5.0F}});
+    const scene::Mesh sphere = scene::build_mesh(scene::SphereRecipe{.radius = 0.9, .rings = 96, .segments = 192});
+    for (const ecs::Entity disc : discs_) {
+        world_.add(disc, render::make_mesh_instance(scene::Mesh(sphere)));
+        world_.add(disc, RecordedRung{kMeanRung});
+    }
+    set_budget(1e9);
+    const std::vector<glm::vec4> mean = settle();
+    EXPECT_EQ(rung(0), kMeanRung);
+    world_.destroy(budget_);
+    const CookedMaterial cooked = ladder_material();
+    const LayerWeights weights = layer_weights(cooked.material.grating, cooked.material.quality.illuminant);
+    ASSERT_EQ(cooked.material.base.colour, glm::vec3(0.0F));
+    const glm::vec3 albedo(colour::xyz_to_rec709() * weights.reflected);
+    for (const ecs::Entity disc : discs_) world_.remove<DiffractionSurface>(disc);
+    const auto drawn_dielectric = [&](const glm::vec3& colour) {
+        for (const ecs::Entity disc : discs_)
+            world_.add(disc, render::StandardMaterial{.base_colour = colour, .metallic = 0.0F, .roughness = 1.0F});
+        return draw();
+    };
+    std::vector<glm::vec4> matte = drawn_dielectric(albedo);
+    const std::vector<glm::vec4> black = drawn_dielectric(glm::vec3(0.0F));
+    float brightest = 0.0F;
+    float error = 0.0F;
+    for (std::size_t i = 0; i < mean.size(); ++i) {
+        if (black[i] == matte[i]) continue;  // background
+        matte[i] -= black[i];
+        for (int c = 0; c < 3; ++c) {
+            brightest = std::max(brightest, matte[i][c]);
+            error = std::max(error, std::abs(mean[i][c] - matte[i][c]));
+        }
+    }
+    EXPECT_GT(brightest, 0.1F);
+    EXPECT_LT(error, 0.005F * brightest);
 }
 
 /// Among neighbouring frames, also while a rung gives way to the next, no pixel jumps.
@@ -193,8 +243,8 @@ TEST_F(FrameBudgets, AFadeWaitsForTheMapOfItsRung) {
     EXPECT_EQ(drawn(0).fade_frame, 1);
     EXPECT_EQ(drawn(1).fade_frame, 1);
     settle();
-    EXPECT_EQ(rung(0), 2U);
-    EXPECT_EQ(rung(1), 2U);
+    EXPECT_EQ(rung(0), kMapRung);
+    EXPECT_EQ(rung(1), kMapRung);
 }
 
 TEST_F(FrameBudgets, WhatIsNotSeenChangesAtOnce) {
@@ -206,24 +256,24 @@ TEST_F(FrameBudgets, WhatIsNotSeenChangesAtOnce) {
     world_.get<scene::Transform>(discs_[1]).translation.z = 0.0F;
     const std::vector<glm::vec4> again = settle();
     EXPECT_EQ(report().objects, 2);
-    EXPECT_EQ(rung(1), 2U);
+    EXPECT_EQ(rung(1), kMapRung);
     for (const glm::vec4& pixel : again) ASSERT_TRUE(std::isfinite(pixel.x));
 }
 
 TEST_F(FrameBudgets, ARecordedRungIsDrawnInPlaceOfACheaperOne) {
-    world_.add(discs_[0], RecordedRung{1});
+    world_.add(discs_[0], RecordedRung{kArcRung});
     world_.add(discs_[1], RecordedRung{});
     set_budget(1e-9);
     settle();
-    EXPECT_EQ(rung(0), 1U);
-    EXPECT_EQ(rung(1), 2U);
+    EXPECT_EQ(rung(0), kArcRung);
+    EXPECT_EQ(rung(1), kMapRung);
     EXPECT_EQ(report().objects, 2);
     EXPECT_EQ(report().at_best, 1);
     EXPECT_NEAR(report().error, (0.2 + 0.01) / 2.0 / 0.05, 0.02) << "the discs cover about as many pixels";
     for (const ecs::Entity disc : discs_) world_.remove<RecordedRung>(disc);
     settle();
-    EXPECT_EQ(rung(0), 0U);
-    EXPECT_EQ(rung(1), 0U);
+    EXPECT_EQ(rung(0), kMeanRung);
+    EXPECT_EQ(rung(1), kMeanRung);
 }
 
 /// Counts the pixels of a disc by the picture, whose background is black.

@@ -239,6 +239,21 @@ TEST_F(ProgramLimits, TheLargestProgramsKeepToWhatOpenGlGuarantees) {
     library.add_embedded(shader_files());
     int most_samplers = 0;
     int most_components = 0;
+    const auto link = [&](gpu::ProgramDesc desc, render::SurfaceFeatures features, const std::string& name) {
+        render::add_defines(features, desc);
+        const gpu::ShaderText fragment = library.assemble(desc.fragment, desc.defines);
+        EXPECT_NO_THROW(gpu::Program(library.assemble(desc.vertex, desc.defines), fragment)) << name;
+        const StageUse use = use_of(fragment.text);
+        EXPECT_LE(use.samplers, render::fragment_samplers(desc)) << name;
+        EXPECT_LE(use.samplers, render::kGuaranteedSamplers) << name;
+        EXPECT_LE(use.components, 60) << name;
+        most_samplers = std::max(most_samplers, use.samplers);
+        most_components = std::max(most_components, use.components);
+    };
+    for (const render::SurfaceFeatures others : {kNormalMap | kDoubleSided, kUnlit, kSkinned | kInstanced})
+        link({.vertex = "modules/diffraction/shaders/mean.vert.glsl",
+              .fragment = "modules/diffraction/shaders/mean.frag.glsl"},
+             kAll | others, "mean colour");
     for (const rowland::test::GratingProgram& program : rowland::test::grating_programs())
         for (const rowland::test::Defines& lights : rowland::test::grating_lights())
             for (const render::SurfaceFeatures normals : {kNormalMap, render::SurfaceFeatures{0}}) {
@@ -250,15 +265,7 @@ TEST_F(ProgramLimits, TheLargestProgramsKeepToWhatOpenGlGuarantees) {
                 desc.defines.emplace_back("AMBIENT_AT_VERTICES", "1");
                 if (program.name == "circle") desc.defines.emplace_back("MATERIAL_CURVED_MIRROR", "1");
                 desc.defines.emplace_back(render::kMaterialSamplers, std::to_string(program.samplers));
-                render::add_defines(kAll | normals, desc);
-                const gpu::ShaderText fragment = library.assemble(desc.fragment, desc.defines);
-                EXPECT_NO_THROW(gpu::Program(library.assemble(desc.vertex, desc.defines), fragment)) << program.name;
-                const StageUse use = use_of(fragment.text);
-                EXPECT_LE(use.samplers, render::fragment_samplers(desc)) << program.name;
-                EXPECT_LE(use.samplers, render::kGuaranteedSamplers) << program.name;
-                EXPECT_LE(use.components, 60) << program.name;
-                most_samplers = std::max(most_samplers, use.samplers);
-                most_components = std::max(most_components, use.components);
+                link(desc, kAll | normals, program.name);
             }
     EXPECT_GE(most_samplers, 15);  // the counts are not of empty programs
     EXPECT_GE(most_components, 50);
