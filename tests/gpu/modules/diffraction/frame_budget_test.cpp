@@ -40,8 +40,7 @@ class FrameBudgets : public test::GlTest {
  protected:
     FrameBudgets() {
         register_module(renderer_, {.map_pace = MapPace::Incremental, .map_wait = std::chrono::hours(1)});
-        renderer_.set_probe(lighting::build_light_probe(
-            smooth_probe(), {.bands = 8, .key_lights = 4, .light_face = 32, .prefilter = {.face_size = 32}}));
+        renderer_.set_probe(lighting::LightProbe(probe_));
         renderer_.use_key_lights(true);
         const auto material = make_gpu_material(ladder_material(), glm::dmat3(1.0));
         scene::Mesh disc =
@@ -91,6 +90,8 @@ class FrameBudgets : public test::GlTest {
         return largest;
     }
 
+    lighting::LightProbe probe_ = lighting::build_light_probe(
+        smooth_probe(), {.bands = 8, .key_lights = 4, .light_face = 32, .prefilter = {.face_size = 32}});
     render::Renderer renderer_{glm::dmat3(1.0)};
     ecs::World world_;
     std::vector<ecs::Entity> discs_;
@@ -274,6 +275,31 @@ TEST_F(FrameBudgets, ARecordedRungIsDrawnInPlaceOfACheaperOne) {
     settle();
     EXPECT_EQ(rung(0), kMeanRung);
     EXPECT_EQ(rung(1), kMeanRung);
+}
+
+/// What needs both slots for its probes cannot fade. The box's probe and the renderer's each light a half of the first
+/// disc.
+TEST_F(FrameBudgets, BetweenTwoProbesARungStaysUnlessTheTimeIsExceeded) {
+    constexpr float kHalf_m = 5.0F;
+    const ecs::Entity box = world_.create();
+    world_.add(box, scene::Transform{.translation = {-1.5F - kHalf_m, 0.0F, 0.0F}});
+    world_.add(box, render::ProbeVolume{.probe = std::make_shared<const lighting::LightProbe>(probe_),
+                                        .half = glm::vec3(kHalf_m)});
+    set_budget(1e-9);
+    settle();
+    EXPECT_EQ(rung(0), kMeanRung) << "the time is exceeded";
+    EXPECT_EQ(rung(1), kMeanRung);
+    const auto settle_patiently = [&] {
+        for (int frame = 0; frame < 16; ++frame) draw();  // until better rungs are wanted
+        settle();
+    };
+    set_budget(1e9);
+    settle_patiently();
+    EXPECT_EQ(rung(0), kMeanRung);
+    EXPECT_EQ(rung(1), kMapRung);
+    world_.destroy(box);
+    settle_patiently();
+    EXPECT_EQ(rung(0), kMapRung);
 }
 
 /// Counts the pixels of a disc by the picture, whose background is black.
