@@ -43,7 +43,7 @@ class DemoSettings : public ::testing::Test {
 class DemoBudget : public DemoSettings {
  protected:
     void open_with(double gratings_ms, bool plays_back) {
-        size_ = {320, 180};  // in smaller pictures the vertices take the time, under all rungs
+        size_ = {96, 54};
         options_.gratings_ms = gratings_ms;
         if (plays_back) options_.play = "recording.jsonl";
         open();
