@@ -1,9 +1,10 @@
 // Posts what films show, by each of the renderers.
 import * as THREE from "three";
 import { WebGPURenderer } from "three/webgpu";
-import { FilmMaterial, Rowland } from "../dist/index.js";
+import { FilmMaterial } from "../dist/index.js";
 import { FilmNodeMaterial } from "../dist/webgpu.js";
 import { shown } from "./film_points.js";
+import { SharedRowland } from "./shared_rowland.js";
 
 const post = (value) => fetch("/result", { method: "POST", body: JSON.stringify(value) });
 
@@ -21,7 +22,7 @@ async function renderersOf() {
 
 try {
     const { cases } = await (await fetch("/task")).json();
-    const rowland = new Rowland();
+    const rowland = new SharedRowland();
     rowland.onError = (error) => post({ error: error.message });
     const results = {};
     for (const [name, by] of Object.entries(await renderersOf())) {

@@ -1,7 +1,7 @@
 // What a film shows with three under equal light from everywhere, or under a lamp that it mirrors, relative to a perfect mirror.
 import * as THREE from "three";
 
-/** A pixel of a square that faces +z, seen from `view`. */
+/** A pixel of a square that faces +z, seen from `view`. The copy from `target` is asked for before this returns. */
 async function pixel(renderer, scene, view, target) {
     const camera = new THREE.PerspectiveCamera(0.1, 1, 0.1, 10);
     camera.position.set(...view);
@@ -14,17 +14,21 @@ async function pixel(renderer, scene, view, target) {
     return [...rgba.subarray(0, 3)];
 }
 
-/** A uniform sky, which each renderer filters for itself. */
-function white() {
-    const texture = new THREE.DataTexture(new Float32Array(4 * 64 * 32).fill(1), 64, 32, THREE.RGBAFormat, THREE.FloatType);
-    return Object.assign(texture, { mapping: THREE.EquirectangularReflectionMapping, needsUpdate: true });
+const skies = new Map();
+/** A uniform sky, which each renderer filters for itself, once: in software that takes seconds. */
+function white(renderer) {
+    if (!skies.has(renderer)) {
+        const texture = new THREE.DataTexture(new Float32Array(4 * 64 * 32).fill(1), 64, 32, THREE.RGBAFormat, THREE.FloatType);
+        skies.set(renderer, Object.assign(texture, { mapping: THREE.EquirectangularReflectionMapping, needsUpdate: true }));
+    }
+    return skies.get(renderer);
 }
 
 export async function shown([renderer, Material], rowland, { film, views, thicknesses, lamp }) {
     const scene = new THREE.Scene();
     const light = new THREE.DirectionalLight();
     if (lamp) scene.add(light);
-    else scene.environment = white();
+    else scene.environment = white(renderer);
     const target = new THREE.WebGLRenderTarget(1, 1, { type: THREE.FloatType });
     const parameters = {};
     if (thicknesses) {
@@ -36,6 +40,7 @@ export async function shown([renderer, Material], rowland, { film, views, thickn
     await material.ready;
     const mesh = new THREE.Mesh(new THREE.PlaneGeometry(), material);
     scene.add(mesh);
+    // All views are drawn before the first is read: WebGPURenderer takes a frame of the browser for each that it waits for.
     const results = [];
     for (const { view, texel = 0 } of views) {
         const map = material.iridescenceThicknessMap;
@@ -45,10 +50,10 @@ export async function shown([renderer, Material], rowland, { film, views, thickn
         }
         light.position.set(-view[0], -view[1], view[2]);
         mesh.material = mirror;
-        const whole = await pixel(renderer, scene, view, target);
+        const whole = pixel(renderer, scene, view, target);
         mesh.material = material;
-        const own = await pixel(renderer, scene, view, target);
-        results.push(own.map((x, c) => x / whole[c]));
+        const own = pixel(renderer, scene, view, target);
+        results.push(Promise.all([whole, own]));
     }
-    return results;
+    return (await Promise.all(results)).map(([whole, own]) => own.map((x, c) => x / whole[c]));
 }

@@ -21,10 +21,14 @@ const TOLD = { "more vertices of instances than a table holds": /243100 vertices
 const COPIED = /"iridescenceThicknessRange" property has been replaced/;
 const RENDERERS = process.env.RENDERER?.split(",") ?? ["WebGLRenderer", "WebGPURenderer on WebGL 2", "WebGPURenderer on WebGPU"];
 
+const only = process.env.ROWS?.split(",");
+const keep = process.env.PICTURES !== undefined;
+// One visit for all that these tests ask: each renderer's rows, or why there are none.
+let visited;
+const visit = () => (visited ??= resultOf("test/module.html?pages.js", { renderers: RENDERERS, only, keep }, { seconds: 900, webgpu: true }));
+
 for (const renderer of RENDERERS) test(`gratings in pages of ${renderer}`, { skip: chromium() ? missing : "needs Chromium" }, async (t) => {
-    const only = process.env.ROWS?.split(",");
-    const keep = process.env.PICTURES !== undefined;
-    const { rows, error, ...result } = await resultOf("test/module.html?pages.js", { renderer, only, keep }, { seconds: 500, webgpu: true });
+    const { rows, error, ...result } = (await visit())[renderer];
     if (/no WebGPU adapter/.test(error)) return t.skip(error);
     assert.equal(error, undefined, JSON.stringify(result));
     for (const { name, found, expected, ...row } of rows) {

@@ -6,7 +6,7 @@ import { RenderPass } from "three/examples/jsm/postprocessing/RenderPass.js";
 import { SIZE, compare, eye, grating, lamp, mapped, picture, plate, renderer, sceneOf, shown, told } from "./pages_stage.js";
 
 const direct = (parameters) => grating({ ...parameters, representation: "direct" }); // without maps, which take their time
-const material = direct();
+let material;
 const mesh = (own = material) => new THREE.Mesh(plate(1.6, 1.6), own);
 const facing = () => {
     const camera = eye();
@@ -16,6 +16,12 @@ const facing = () => {
 };
 
 let first; // the picture that most others differ from in one thing
+
+/** To be called when another renderer draws. */
+export function beginPictures() {
+    material = direct();
+    first = undefined;
+}
 const plain = async () => (first ??= await picture(sceneOf(lamp(), mesh()), facing()));
 const row = (found, expected, skip) => ({ ...compare(found, expected, skip), found, expected });
 

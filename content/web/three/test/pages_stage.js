@@ -1,12 +1,9 @@
 // A small scene of gratings, its pictures as floats, and how far two pictures are apart.
 import * as THREE from "three";
 import { WebGPURenderer } from "three/webgpu";
-import { GratingMaterial, Rowland } from "../dist/index.js";
+import { GratingMaterial } from "../dist/index.js";
 import { GratingNodeMaterial } from "../dist/webgpu.js";
-
-/** Which rows, by which of three's renderers. */
-export const task = await (await fetch("/task")).json();
-const nodes = task.renderer !== "WebGLRenderer";
+import { SharedRowland } from "./shared_rowland.js";
 
 export const SIZE = 32; // of a picture, in pixels
 export const CD = {
@@ -14,7 +11,7 @@ export const CD = {
     metal: "Al",
 };
 
-export const rowland = new Rowland();
+export const rowland = new SharedRowland();
 /** What a page would be told, since it was last read. */
 export const told = [];
 rowland.onError = (error) => told.push(error.message);
@@ -34,7 +31,7 @@ export function sky() {
     return new THREE.DataTexture(texels, width, height, THREE.RGBAFormat, THREE.FloatType);
 }
 
-const Material = nodes ? GratingNodeMaterial : GratingMaterial;
+let Material;
 export const grating = (parameters) => new Material({ rowland, grating: CD, side: THREE.DoubleSide, ...parameters });
 
 export function plate(width = 1, height = 1) {
@@ -69,11 +66,23 @@ export function eye(z = 2.2) {
     return camera;
 }
 
-export const renderer = nodes ? new WebGPURenderer({ forceWebGL: task.renderer.endsWith("WebGL 2") }) : new THREE.WebGLRenderer({ antialias: false });
-await renderer.init?.();
-renderer.setSize(SIZE, SIZE, false);
-document.body.append(renderer.domElement);
-const target = new THREE.WebGLRenderTarget(SIZE, SIZE, { type: THREE.FloatType });
+/** The renderer that draws now, and what it draws into. */
+export let renderer;
+let target;
+
+/** Draws by one of three's renderers from now on, and by none that drew before. */
+export async function drawBy(name) {
+    const nodes = name !== "WebGLRenderer";
+    Material = nodes ? GratingNodeMaterial : GratingMaterial;
+    renderer?.domElement.remove();
+    renderer?.dispose();
+    renderer = nodes ? new WebGPURenderer({ forceWebGL: name.endsWith("WebGL 2") }) : new THREE.WebGLRenderer({ antialias: false });
+    await renderer.init?.();
+    renderer.setSize(SIZE, SIZE, false);
+    document.body.append(renderer.domElement);
+    target = new THREE.WebGLRenderTarget(SIZE, SIZE, { type: THREE.FloatType });
+    if (name.endsWith("on WebGPU") && !renderer.backend.isWebGPUBackend) throw new Error("this Chromium offers no WebGPU adapter");
+}
 
 function materialsOf(scene) {
     const found = new Set();

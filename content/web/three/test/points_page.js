@@ -7,36 +7,13 @@ import { HDRLoader } from "three/examples/jsm/loaders/HDRLoader.js";
 import { GratingMaterial, Rowland } from "../dist/index.js";
 import { GratingNodeMaterial } from "../dist/webgpu.js";
 import { picture, PointMaterial, radiance, reference } from "./points.js";
+import { SharedRowland } from "./shared_rowland.js";
 
 const post = (value) => fetch("/result", { method: "POST", body: JSON.stringify(value) });
 
 class PointNodeMaterial extends GratingNodeMaterial {
     setupModelViewProjection() {
         return vec4(attribute("place", "vec2"), 0, 1);
-    }
-}
-
-/** Bakes a case once for all renderers. */
-class SharedRowland extends Rowland {
-    shared = new Map();
-    once(key, bake) {
-        if (!this.shared.has(key)) this.shared.set(key, bake());
-        return this.shared.get(key);
-    }
-    material(id, grating, efficiencies) {
-        return this.once(`material ${efficiencies !== undefined}`, () => super.material(id, grating, efficiencies));
-    }
-    solve(...of) {
-        return this.once("solve", () => super.solve(...of));
-    }
-    plane(...of) {
-        return this.once(`plane ${of.at(-1)}`, () => super.plane(...of));
-    }
-    arc(...of) {
-        return this.once("arc", () => super.arc(...of));
-    }
-    products(...of) {
-        return this.once("products", () => super.products(...of));
     }
 }
 
@@ -101,7 +78,6 @@ try {
     const results = [];
     const FLIPPED = "WebGLRenderer, upside down";
     for (const one of cases) {
-        rowland.shared.clear();
         const shown = {};
         if (one.representation === "reference") shown.reference = await reference(rowland, one);
         else for (const [name, by] of Object.entries(drawing)) shown[name] = await (one.picture ? picture : radiance)(by, rowland, one);

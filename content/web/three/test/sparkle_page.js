@@ -1,9 +1,10 @@
 // Posts pictures of foil that sparkles, and of foil of one direction, by each of the renderers.
 import * as THREE from "three";
 import { WebGPURenderer } from "three/webgpu";
-import { GratingMaterial, Rowland } from "../dist/index.js";
+import { GratingMaterial } from "../dist/index.js";
 import { GratingNodeMaterial } from "../dist/webgpu.js";
 import { pixelsOf } from "./points.js";
+import { SharedRowland } from "./shared_rowland.js";
 
 const post = (value) => fetch("/result", { method: "POST", body: JSON.stringify(value) });
 
@@ -28,12 +29,18 @@ function probe() {
     return { texels, width, height };
 }
 
-/** A square of foil, each of whose pixels covers `change` of the texture. */
-async function drawn({ renderer, Material }, rowland, { grating, representation, lamp }, { change, pixels }, corner, texture, sparkle) {
+/** The material of a case. `sparkle`: whether pixels show some of the facets that they cover. */
+async function foil({ Material }, rowland, { grating, representation }, texture, sparkle) {
     const material = new Material({
         rowland, grating: { grating, cover: undefined, grooveTexture: { index: 0, sparkle } }, representation, grooveTexture: texture, specularIntensity: 0,
     });
     material.diffractionOnly = true;
+    await material.ready;
+    return material;
+}
+
+/** A square of foil, each of whose pixels covers `change` of the texture. */
+async function drawn({ renderer }, material, { lamp }, { change, pixels }, corner) {
     const square = new THREE.PlaneGeometry(2, 2);
     const uv = square.getAttribute("uv");
     for (let i = 0; i < uv.count; ++i)
@@ -48,15 +55,12 @@ async function drawn({ renderer, Material }, rowland, { grating, representation,
     scene.add(new THREE.Mesh(square, material));
     const camera = new THREE.OrthographicCamera(-1, 1, 1, -1, 1, 3).translateZ(2);
     const target = new THREE.WebGLRenderTarget(pixels, pixels, { type: THREE.FloatType });
-    await material.ready;
     for (let i = 0; i < 3; ++i) {
         renderer.setRenderTarget(target);
         renderer.render(scene, camera);
         await material.settled;
     }
-    const picture = await pixelsOf(renderer, target);
-    material.dispose();
-    return picture;
+    return pixelsOf(renderer, target);
 }
 
 async function renderersOf() {
@@ -74,26 +78,32 @@ const errors = []; // of shaders, which three logs
 for (const kind of ["error", "warn"]) console[kind] = (...words) => errors.push(words.join(" "));
 try {
     const { cases, edge, corner } = await (await fetch("/task")).json();
-    const rowland = new Rowland();
+    const rowland = new SharedRowland();
     rowland.onError = (error) => post({ error: error.message });
     await rowland.setProbe(probe(), { keyLights: 0 });
     const drawing = await renderersOf();
     const results = [];
     for (const one of cases) {
         const shown = [];
-        for (const red of one.reds)
-            shown.push((await drawn(drawing.WebGLRenderer, rowland, one, { change: [[1, 0], [0, 1]], pixels: 1 }, corner,
-                grooveTexture({ width: 1, height: 1, texels: [red, one.green] }), false))[0]);
+        for (const red of one.reds) {
+            const texture = grooveTexture({ width: 1, height: 1, texels: [red, one.green] });
+            const material = await foil(drawing.WebGLRenderer, rowland, one, texture, false);
+            shown.push((await drawn(drawing.WebGLRenderer, material, one, { change: [[1, 0], [0, 1]], pixels: 1 }, corner))[0]);
+        }
         const texture = grooveTexture(one.texture);
         const pictures = {};
         for (const [name, by] of Object.entries(drawing)) {
+            const material = await foil(by, rowland, one, texture, true);
             pictures[name] = [];
-            for (const distance of one.distances) pictures[name].push(await drawn(by, rowland, one, distance, corner, texture, true));
+            for (const distance of one.distances) pictures[name].push(await drawn(by, material, one, distance, corner));
         }
         results.push({ shown, pictures });
     }
     const edges = {};
-    for (const [name, by] of Object.entries(drawing)) edges[name] = await drawn(by, rowland, edge, edge.distance, [0, 0], grooveTexture(edge.texture), false);
+    for (const [name, by] of Object.entries(drawing)) {
+        const material = await foil(by, rowland, edge, grooveTexture(edge.texture), false);
+        edges[name] = await drawn(by, material, edge, edge.distance, [0, 0]);
+    }
     const loaded = performance.getEntriesByType("resource").map(({ name }) => new URL(name).pathname);
     await post({ results, edges, errors, loaded });
 } catch (error) {

@@ -22,6 +22,21 @@ window.Worker = class extends StartedWorker {
     }
 };
 
+// Until the picture is settled there are few frames: software draws each for as long as a worker needs for a part of a map.
+const nextFrame = requestAnimationFrame;
+let asked = [];
+window.requestAnimationFrame = (draw) => {
+    asked.push(draw);
+    return -1;
+};
+function frame(now) {
+    const draws = asked;
+    asked = [];
+    for (const draw of draws) draw(now);
+    setTimeout(() => nextFrame(frame), settled ? 0 : 400);
+}
+nextFrame(frame);
+
 let framesAfter = 0;
 function watch() {
     if (settled) framesAfter += 1;
